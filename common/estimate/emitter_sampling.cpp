@@ -1,0 +1,102 @@
+#include "estimate/emitter_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radfarm {
+namespace {
+
+// Below the first bound area sampling is as good and cheaper, above the second Arvo's formulas lose their digits.
+bool by_solid_angle(double omega) {
+  return omega >= SphericalTriangle::kMinSolidAngle && omega <= SphericalTriangle::kMaxSolidAngle;
+}
+
+double solid_angle_from(const EmissiveTriangle& t, const Vec3& from) {
+  const Vec3d origin = to_double(from);
+  return triangle_solid_angle(to_double(t.vertices[0]) - origin, to_double(t.vertices[1]) - origin,
+                              to_double(t.vertices[2]) - origin);
+}
+
+/// Density per steradian of a point chosen uniformly by area.
+float area_pdf(const EmissiveTriangle& t, const Vec3& direction, float distance) {
+  const float cosine = std::fabs(dot(t.normal, direction));
+  return cosine > 0 ? distance * distance / (cosine * t.area) : 0;
+}
+
+/// A point of the triangle as barycentric weights of vertices 1 and 2.
+Vec2 sample_point(const EmissiveTriangle& t, const Vec3& from, const Vec2& u) {
+  if (!by_solid_angle(solid_angle_from(t, from))) {
+    const Vec3 b = sample_uniform_triangle(u);
+    return {b.y, b.z};
+  }
+  const SphericalTriangle spherical(to_double(t.vertices[0]), to_double(t.vertices[1]), to_double(t.vertices[2]),
+                                    to_double(from));
+  const Vec3 b = spherical.sample(u).barycentrics;
+  return {b.y, b.z};
+}
+
+/// The triangle's vertices in file order, as Hit counts them.
+Hit hit_on(const World& world, const EmissiveTriangle& t, const Vec2& b) {
+  const bool is_swapped = world.surfaces.is_mirrored(t.instance);
+  return {t.instance, t.triangle, is_swapped ? b.y : b.x, is_swapped ? b.x : b.y, 0};
+}
+
+bool both_hemispheres(const SurfacePoint& point, const Vec3& direction) {
+  return dot(point.shading_normal, direction) > 0 && dot(point.geometric_normal, direction) > 0;
+}
+
+NextEvent sample_triangle(const World& world, const SurfacePoint& point, std::uint32_t index, const Vec2& u,
+                          Counters& counters) {
+  const EmissiveTriangle& t = world.emitters.triangles[index];
+  SurfacePoint target = world.surfaces.at(hit_on(world, t, sample_point(t, point.position, u)));
+  const Vec3 start = leave(point);
+  const Vec3 offset = target.position - start;
+  const float distance = length(offset);
+  if (!(distance > 0)) return {};
+  NextEvent event;
+  event.direction = offset / distance;
+  face(target, -event.direction);
+  if (!both_hemispheres(point, event.direction)) return {};
+  const Spectrum radiance = world.surfaces.emission(target);
+  event.pdf = pdf_emitter(world, index, point.position, event.direction, distance);
+  if (is_black(radiance) || !(event.pdf > 0)) return {};
+  ++counters.visibility_rays;
+  event.weight = radiance * (world.caster.transmittance(start, leave(target)) / event.pdf);
+  return event;
+}
+
+NextEvent sample_punctual(const World& world, const SurfacePoint& point, const PunctualLight& light, float probability,
+                          Counters& counters) {
+  const PunctualArrival arrival = arrive(light, point.position, world.radius);
+  if (is_black(arrival.irradiance) || !both_hemispheres(point, arrival.direction)) return {};
+  ++counters.visibility_rays;
+  NextEvent event;
+  event.direction = arrival.direction;
+  event.weight = arrival.irradiance * (world.caster.transmittance(leave(point), arrival.target) / probability);
+  return event;
+}
+
+}  // namespace
+
+NextEvent sample_emitter(const World& world, const SurfacePoint& point, float choice, const Vec2& u,
+                         Counters& counters) {
+  const Emitters& emitters = world.emitters;
+  if (emitters.size() == 0) return {};
+  const auto chosen = emitters.choice.sample(choice);
+  if (chosen.index < emitters.triangles.size()) {
+    return sample_triangle(world, point, static_cast<std::uint32_t>(chosen.index), u, counters);
+  }
+  const auto probability = static_cast<float>(chosen.probability);
+  return sample_punctual(world, point, emitters.punctual[chosen.index - emitters.triangles.size()], probability,
+                         counters);
+}
+
+float pdf_emitter(const World& world, std::uint32_t index, const Vec3& from, const Vec3& direction, float distance) {
+  const EmissiveTriangle& t = world.emitters.triangles[index];
+  const auto choice = static_cast<float>(world.emitters.choice.probability(index));
+  const double omega = solid_angle_from(t, from);
+  if (by_solid_angle(omega)) return choice / static_cast<float>(omega);
+  return choice * area_pdf(t, direction, distance);
+}
+
+}  // namespace radfarm

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "estimate/counters.h"
+#include "math/vec.h"
+#include "scene/world.h"
+
+namespace radfarm {
+
+/// Chooses an emitter and a direction towards it: next-event estimation.              docs/pipeline.md (path.3)
+
+/// What one next-event sample brings to a surface point: radiance arriving from `direction`, divided by the probability
+/// of having chosen it; black when nothing arrives.
+struct NextEvent {
+  Spectrum weight;       // L / pdf for triangles, I / d^2 / probability for punctual lights (both without receiver cosine)
+  Vec3 direction{0, 0, 1};  // unit
+  float pdf = 0;         // per steradian, of triangles; 0 for punctual lights, which no path hits
+};
+
+/// Samples the light that reaches `point` from one emitter, with its visibility. One shadow ray at most.
+NextEvent sample_emitter(const World& world, const SurfacePoint& point, float choice, const Vec2& u, Counters& counters);
+
+/// Solid-angle density with which sample_emitter() at `from` chooses the direction to a point of emissive triangle `index`,
+/// which lies at distance `distance` along unit `direction`.
+float pdf_emitter(const World& world, std::uint32_t index, const Vec3& from, const Vec3& direction, float distance);
+
+}  // namespace radfarm

@@ -1,0 +1,36 @@
+#include "estimate/render_tile.h"
+
+namespace radfarm {
+namespace {
+
+constexpr std::uint32_t kFilmDimension = 0;
+
+}  // namespace
+
+PixelSums sample_pixel(const Film& film, Stream stream, int x, int y, std::uint32_t first, std::uint32_t count,
+                       const SampleRadiance& radiance, Counters& counters) {
+  PixelSums sums;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const PixelSampler sampler(film.seed, stream, x, y, i);
+    const Vec2 jitter = sampler.two(kFilmDimension);
+    const Ray ray = camera_ray(film.camera, film.width, film.height, static_cast<float>(x) + jitter.x,
+                               static_cast<float>(y) + jitter.y);
+    sums.add(radiance(ray, sampler, counters));
+  }
+  counters.dropped_samples += sums.dropped;
+  return sums;
+}
+
+std::vector<PixelSums> render_tile(const Film& film, const PixelRect& rect, std::uint32_t samples,
+                                   const SampleRadiance& radiance, Counters& counters) {
+  std::vector<PixelSums> sums;
+  sums.reserve(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()));
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      sums.push_back(sample_pixel(film, Stream::kRender, x, y, 0, samples, radiance, counters));
+    }
+  }
+  return sums;
+}
+
+}  // namespace radfarm

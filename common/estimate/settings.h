@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+#include "radiosity/settings.h"
+#include "senders/settings.h"
+
+namespace radfarm {
+
+/// Everything that decides an image's bits besides scene and camera: what --quality and the flags resolve to. Recorded in
+/// the report and in the image's header, so that a render can be replayed exactly. Stored as it is; no padding.
+struct Settings {
+  enum class Integrator : std::uint32_t { kGather = 0, kPathTrace = 1 };
+  Integrator integrator = Integrator::kGather;
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  std::int32_t tile = 32;                // pixels a side; decides the cutting, never the image
+  std::uint64_t seed = 1;
+  std::uint32_t camera_samples = 16;     // a pixel
+  std::uint32_t audit_pixels = 0;        // 0: no audit
+  std::uint32_t audit_samples = 0;       // paths of each of the two estimates of an audited pixel
+  std::uint32_t reserved = 0;
+  RadiositySettings radiosity;
+  SenderSettings senders;
+};
+
+}  // namespace radfarm

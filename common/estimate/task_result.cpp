@@ -1,0 +1,50 @@
+#include "estimate/task_result.h"
+
+#include "base/flat_file.h"
+
+namespace radfarm {
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+
+}  // namespace
+
+std::vector<std::byte> encode(const TileResult& result) {
+  FlatFileWriter file("tile", kVersion);
+  file.add_value("rect", result.rect);
+  file.add("pixels", result.pixels);
+  file.add_value("counters", result.counters);
+  return file.finish();
+}
+
+std::vector<std::byte> encode(const AuditResult& result) {
+  FlatFileWriter file("audit", kVersion);
+  file.add("pixels", result.pixels);
+  file.add_value("counters", result.counters);
+  return file.finish();
+}
+
+Result<TileResult> decode_tile_result(std::span<const std::byte> bytes) {
+  RADFARM_TRY(const FlatFileReader file, FlatFileReader::open(bytes, "tile", kVersion));
+  TileResult result;
+  RADFARM_TRY(result.rect, file.get_value<PixelRect>("rect"));
+  RADFARM_TRY(result.pixels, file.copy<PixelSums>("pixels"));
+  RADFARM_TRY(result.counters, file.get_value<Counters>("counters"));
+  const PixelRect& rect = result.rect;
+  const bool is_inside = rect.x0 >= 0 && rect.y0 >= 0 && rect.x1 > rect.x0 && rect.y1 > rect.y0 &&
+                         rect.x1 <= 1 << 20 && rect.y1 <= 1 << 20;
+  if (!is_inside || result.pixels.size() != static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height())) {
+    return fail(Code::kDataLoss, "tile result: its rectangle and its pixels do not agree");
+  }
+  return result;
+}
+
+Result<AuditResult> decode_audit_result(std::span<const std::byte> bytes) {
+  RADFARM_TRY(const FlatFileReader file, FlatFileReader::open(bytes, "audit", kVersion));
+  AuditResult result;
+  RADFARM_TRY(result.pixels, file.copy<AuditResult::Pixel>("pixels"));
+  RADFARM_TRY(result.counters, file.get_value<Counters>("counters"));
+  return result;
+}
+
+}  // namespace radfarm

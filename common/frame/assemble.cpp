@@ -1,0 +1,79 @@
+#include "frame/assemble.h"
+
+#include <string>
+
+#include "frame/tasks.h"
+
+namespace radfarm {
+namespace {
+
+struct Layer {
+  const char* prefix;
+  SpectrumD (*value)(const PixelSums&);
+};
+
+constexpr Layer kLayers[] = {
+    {"", [](const PixelSums& p) { return p.emission + p.direct + p.indirect; }},
+    {"emission.", [](const PixelSums& p) { return p.emission; }},
+    {"direct.", [](const PixelSums& p) { return p.direct; }},
+    {"indirect.", [](const PixelSums& p) { return p.indirect; }},
+    {"specular.", [](const PixelSums&) { return SpectrumD(); }},
+};
+
+}  // namespace
+
+Result<Raster> assemble(const Settings& settings, std::span<const TileResult> tiles) {
+  Raster raster;
+  const auto width = static_cast<std::size_t>(settings.width);
+  raster.pixels.resize(width * static_cast<std::size_t>(settings.height));
+  std::vector<bool> filled(raster.pixels.size());
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < tiles.size(); ++i) {
+    const TileResult& tile = tiles[i];
+    if (tile.rect != tile_rect(settings, i)) return fail(Code::kDataLoss, "tile " + std::to_string(i) + " is misplaced");
+    raster.counters += tile.counters;
+    std::size_t next = 0;
+    for (int y = tile.rect.y0; y < tile.rect.y1; ++y) {
+      for (int x = tile.rect.x0; x < tile.rect.x1; ++x) {
+        const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+        if (filled[pixel]) return fail(Code::kDataLoss, "tile " + std::to_string(i) + " covers another");
+        filled[pixel] = true;
+        raster.pixels[pixel] = tile.pixels[next++];
+        ++count;
+      }
+    }
+  }
+  if (count != raster.pixels.size()) return fail(Code::kDataLoss, "the tiles leave pixels uncovered");
+  return raster;
+}
+
+Image to_image(const Settings& settings, const Raster& raster) {
+  Image image;
+  image.width = settings.width;
+  image.height = settings.height;
+  for (const Layer& layer : kLayers) {
+    const std::string prefix = layer.prefix;
+    std::vector<float> r, g, b;
+    for (const PixelSums& pixel : raster.pixels) {
+      const SpectrumD mean = layer.value(pixel) / static_cast<double>(pixel.samples);
+      r.push_back(static_cast<float>(mean.r));
+      g.push_back(static_cast<float>(mean.g));
+      b.push_back(static_cast<float>(mean.b));
+    }
+    image.channels[prefix + "R"] = std::move(r);
+    image.channels[prefix + "G"] = std::move(g);
+    image.channels[prefix + "B"] = std::move(b);
+  }
+  return image;
+}
+
+double dropped_share(const Raster& raster) {
+  double dropped = 0, all = 0;
+  for (const PixelSums& pixel : raster.pixels) {
+    dropped += pixel.dropped;
+    all += static_cast<double>(pixel.dropped) + pixel.samples;
+  }
+  return all > 0 ? dropped / all : 0;
+}
+
+}  // namespace radfarm

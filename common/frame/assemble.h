@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/status.h"
+#include "estimate/settings.h"
+#include "estimate/task_result.h"
+#include "image/image.h"
+
+namespace radfarm {
+
+/// All pixels' sums in one raster, row by row.
+struct Raster {
+  std::vector<PixelSums> pixels;
+  Counters counters;
+};
+
+/// Puts tiles together. DATA_LOSS when a pixel is missing or given twice.
+Result<Raster> assemble(const Settings& settings, std::span<const TileResult> tiles);
+
+/// The layers of DESIGN section 9: beauty at the root, emission, direct, indirect, specular (zero until photon paths).
+/// A pixel without any kept sample is an error of its job, found by dropped_share(), and NaN here: never a silent black.
+Image to_image(const Settings& settings, const Raster& raster);
+
+/// Samples left out because they were not finite or negative, as a share of all.
+double dropped_share(const Raster& raster);
+
+}  // namespace radfarm

@@ -1,0 +1,121 @@
+#include "frame/audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/random.h"
+#include "estimate/audit_pixels.h"
+
+namespace radfarm {
+namespace {
+
+constexpr int kResamples = 1000;
+constexpr std::uint64_t kBootstrapKey = 0x626f6f74;  // "boot"
+
+/// What one audited pixel contributes.
+struct Term {
+  double weight = 0;    // share of the image
+  double product = 0;   // (x - r1)(x - r2), luminance
+  double shift = 0;     // (r1 + r2) / 2 - x
+};
+
+SpectrumD mean_direct(const PixelSums& p) { return p.direct / static_cast<double>(p.samples); }
+SpectrumD mean_indirect(const PixelSums& p) { return p.indirect / static_cast<double>(p.samples); }
+
+double mean_of_image(const Raster& raster) {
+  double sum = 0;
+  for (const PixelSums& p : raster.pixels) sum += luminance(mean_direct(p) + mean_indirect(p));
+  return sum / static_cast<double>(raster.pixels.size());
+}
+
+struct Moments {
+  double mse = 0;
+  double mean = 0;
+};
+
+Moments weigh(std::span<const Term> terms, double image_mean, RandomSequence* random) {
+  double weight = 0, product = 0, shift = 0;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const auto pick = static_cast<std::size_t>(random == nullptr ? static_cast<double>(i)
+                                                                 : random->uniform_double() * static_cast<double>(terms.size()));
+    weight += terms[pick].weight;
+    product += terms[pick].weight * terms[pick].product;
+    shift += terms[pick].weight * terms[pick].shift;
+  }
+  return {product / weight, image_mean + shift / weight};
+}
+
+double root(double mse) { return std::sqrt(std::max(mse, 0.0)); }
+
+MeasuredError measured(double value, std::vector<double> resampled) {
+  std::sort(resampled.begin(), resampled.end());
+  MeasuredError error;
+  error.lower = resampled[static_cast<std::size_t>(0.025 * kResamples)];
+  error.upper = resampled[static_cast<std::size_t>(0.975 * kResamples)];
+  if (value > 0) error.value = value;
+  return error;
+}
+
+void add_parts(const PixelSums& x, const AuditResult::Pixel& r, double weight, Accuracy& accuracy) {
+  const SpectrumD reflected = mean_direct(x) + mean_indirect(x);
+  const SpectrumD rest1 = reflected - mean_direct(r.first) - mean_indirect(r.first);
+  const SpectrumD rest2 = reflected - mean_direct(r.second) - mean_indirect(r.second);
+  accuracy.direct_mse += weight * luminance(mean_direct(x) - mean_direct(r.first)) * luminance(rest2);
+  accuracy.indirect_mse += weight * luminance(mean_indirect(x) - mean_indirect(r.first)) * luminance(rest2);
+  accuracy.channel_mse[0] += weight * rest1.r * rest2.r;
+  accuracy.channel_mse[1] += weight * rest1.g * rest2.g;
+  accuracy.channel_mse[2] += weight * rest1.b * rest2.b;
+}
+
+Result<std::vector<Term>> compare_pixels(const Settings& settings, const Raster& raster,
+                                         std::span<const AuditResult> audits, Accuracy& accuracy) {
+  const std::vector<AuditPixel> chosen =
+      choose_audit_pixels(settings.width, settings.height, settings.audit_pixels, settings.seed);
+  std::vector<Term> terms;
+  for (const AuditResult& audited : audits) {
+    for (const AuditResult::Pixel& r : audited.pixels) {
+      const bool is_expected = terms.size() < chosen.size() && chosen[terms.size()].x == r.x &&
+                               chosen[terms.size()].y == r.y && r.first.samples > 0 && r.second.samples > 0;
+      if (!is_expected) return fail(Code::kDataLoss, "an audit result does not fit its task");
+      const double weight = chosen[terms.size()].weight;
+      const PixelSums& x = raster.pixels[static_cast<std::size_t>(r.y) * static_cast<std::size_t>(settings.width) +
+                                         static_cast<std::size_t>(r.x)];
+      const double value = luminance(mean_direct(x) + mean_indirect(x));
+      const double r1 = luminance(mean_direct(r.first) + mean_indirect(r.first));
+      const double r2 = luminance(mean_direct(r.second) + mean_indirect(r.second));
+      terms.push_back({weight, (value - r1) * (value - r2), (r1 + r2) / 2 - value});
+      add_parts(x, r, weight, accuracy);
+    }
+  }
+  if (terms.size() != chosen.size()) return fail(Code::kDataLoss, "audit results are missing");
+  return terms;
+}
+
+}  // namespace
+
+Result<Accuracy> audit(const Settings& settings, const Raster& raster, std::span<const AuditResult> audits) {
+  Accuracy accuracy;
+  const double image_mean = mean_of_image(raster);
+  accuracy.mean = image_mean;
+  RADFARM_TRY(const std::vector<Term> terms, compare_pixels(settings, raster, audits, accuracy));
+  if (terms.empty()) return accuracy;
+  accuracy.audited_pixels = static_cast<std::uint32_t>(terms.size());
+  const Moments measured_here = weigh(terms, image_mean, nullptr);
+  accuracy.mean = measured_here.mean;
+  if (!(measured_here.mean > 0)) return accuracy;
+
+  std::vector<double> absolute, relative;
+  for (std::uint64_t i = 0; i < kResamples; ++i) {
+    RandomSequence random(combine(settings.seed, kBootstrapKey, i));
+    const Moments m = weigh(terms, image_mean, &random);
+    absolute.push_back(root(m.mse));
+    relative.push_back(m.mean > 0 ? root(m.mse) / m.mean : 0);
+  }
+  const double rmse = root(measured_here.mse);
+  accuracy.rmse = measured(rmse, std::move(absolute));
+  accuracy.relative_rmse = measured(rmse / measured_here.mean, std::move(relative));
+  return accuracy;
+}
+
+}  // namespace radfarm

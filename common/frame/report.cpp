@@ -1,0 +1,101 @@
+#include "frame/report.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace radfarm {
+namespace {
+
+using nlohmann::json;
+
+json interval(const std::optional<MeasuredError>& error) {
+  if (!error) return nullptr;
+  return json::array({error->lower, error->upper});
+}
+
+json value(const std::optional<MeasuredError>& error) {
+  if (!error || !error->value) return nullptr;
+  return *error->value;
+}
+
+json accuracy_json(const std::optional<Accuracy>& accuracy) {
+  json out = {{"model", "diffuse-only"}, {"target", nullptr}, {"target_met", nullptr}, {"audited_pixels", 0},
+              {"mean", nullptr},         {"rmse", nullptr},   {"rmse_ci95", nullptr},  {"relative_rmse", nullptr},
+              {"relative_rmse_ci95", nullptr}};
+  out["unaudited"] = json::array({"transport beyond Lambertian reflection: every material is folded into diffuse"});
+  if (!accuracy) return out;
+  out["audited_pixels"] = accuracy->audited_pixels;
+  out["mean"] = accuracy->mean;
+  out["rmse"] = value(accuracy->rmse);
+  out["rmse_ci95"] = interval(accuracy->rmse);
+  out["relative_rmse"] = value(accuracy->relative_rmse);
+  out["relative_rmse_ci95"] = interval(accuracy->relative_rmse);
+  out["mse_parts"] = {{"direct", accuracy->direct_mse}, {"indirect", accuracy->indirect_mse}};
+  out["channel_mse"] = accuracy->channel_mse;
+  return out;
+}
+
+void add_counts(json& counts, const Settings& settings, const Counters& c) {
+  const double pixels = static_cast<double>(settings.width) * settings.height;
+  counts["camera_rays"] = c.camera_rays;
+  counts["visibility_rays"] = c.visibility_rays;
+  counts["path_rays"] = c.path_rays;
+  counts["form_factor_samples"] = c.form_factor_samples;
+  counts["photon_paths"] = c.photon_paths;
+  counts["visibility_samples_per_pixel"] = static_cast<double>(c.visibility_rays) / pixels;
+  counts["form_factor_samples_per_pixel"] = static_cast<double>(c.form_factor_samples) / pixels;
+  counts["grid_vertices_computed_by_workers"] = c.vertices_computed;
+}
+
+}  // namespace
+
+json to_json(const Settings& s) {
+  const bool is_gather = s.integrator == Settings::Integrator::kGather;
+  json out = {{"integrator", is_gather ? "gather" : "path-trace"},
+              {"width", s.width},
+              {"height", s.height},
+              {"tile", s.tile},
+              {"seed", s.seed},
+              {"camera_samples", s.camera_samples},
+              {"audit_pixels", s.audit_pixels},
+              {"audit_samples", s.audit_samples}};
+  if (!is_gather) return out;
+  out["radiosity"] = {{"max_link_error", s.radiosity.max_link_error},
+                      {"min_patch_area", s.radiosity.min_patch_area},
+                      {"residual", s.radiosity.residual},
+                      {"samples_per_link", s.radiosity.samples_per_link},
+                      {"max_links", s.radiosity.max_links},
+                      {"max_passes", s.radiosity.max_passes}};
+  out["senders"] = {{"threshold", s.senders.threshold},
+                    {"grid", {s.senders.columns, s.senders.rows, s.senders.slices}},
+                    {"max_senders", s.senders.max_senders},
+                    {"vertex_samples", s.senders.vertex_samples},
+                    {"samples_per_gather", s.senders.samples_per_gather}};
+  return out;
+}
+
+json make_report(json facts, const Settings& settings, const Raster& raster, const Counters& counters,
+                 const std::optional<Accuracy>& accuracy, const std::string& image_digest, const FarmFacts& farm) {
+  json report = std::move(facts);
+  report["version"] = 1;
+  report["settings"]["resolved"] = to_json(settings);
+  double cpu = 0;
+  long long memory = report.value("peak_memory_bytes", 0LL);
+  report["workers"] = json::array();
+  for (const FarmFacts::Worker& w : farm.workers) {
+    report["workers"].push_back(
+        {{"name", w.name}, {"tasks", w.tasks}, {"cpu_s", w.cpu_seconds}, {"peak_memory_bytes", w.peak_memory_bytes}});
+    cpu += w.cpu_seconds;
+    memory = std::max(memory, w.peak_memory_bytes);
+  }
+  report["stages"].push_back({{"name", "tasks"}, {"wall_s", farm.tasks_wall_seconds}, {"cpu_s", cpu}});
+  report["peak_memory_bytes"] = memory;
+  add_counts(report["counts"], settings, counters);
+  report["accuracy"] = accuracy_json(accuracy);
+  report["dropped_samples"] = {{"count", counters.dropped_samples}, {"share", dropped_share(raster)}};
+  report["image"] = {{"path", ""}, {"digest", image_digest}};
+  return report;
+}
+
+}  // namespace radfarm

@@ -1,0 +1,295 @@
+#include "frame/request.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace radfarm {
+namespace {
+
+using Json = nlohmann::json;
+using Integrator = RenderRequest::Integrator;
+using Quality = RenderRequest::Quality;
+using UpAxis = RenderRequest::UpAxis;
+using NamedCamera = RenderRequest::NamedCamera;
+using PlacedCamera = RenderRequest::PlacedCamera;
+
+constexpr int kMaxSide = 16384;
+constexpr int kMaxTile = 1024;
+constexpr int kMaxSamples = 1 << 20;
+constexpr std::size_t kMaxText = 1024;  // bytes of a camera's name or an effects list
+
+template <typename T>
+struct Name {
+  T value;
+  const char* text;
+};
+constexpr std::array kIntegrators = {
+    Name<Integrator>{Integrator::kAuto, "auto"},
+    Name<Integrator>{Integrator::kGather, "gather"},
+    Name<Integrator>{Integrator::kFullGather, "full-gather"},
+    Name<Integrator>{Integrator::kPathTrace, "path-trace"},
+};
+constexpr std::array kQualities = {
+    Name<Quality>{Quality::kPreview, "preview"},
+    Name<Quality>{Quality::kStandard, "standard"},
+    Name<Quality>{Quality::kHigh, "high"},
+    Name<Quality>{Quality::kReference, "reference"},
+};
+constexpr std::array kUpAxes = {Name<UpAxis>{UpAxis::kY, "Y"}, Name<UpAxis>{UpAxis::kZ, "Z"}};
+
+template <typename T, std::size_t N>
+std::string name_of(const std::array<Name<T>, N>& names, T value) {
+  for (const Name<T>& name : names) {
+    if (name.value == value) return name.text;
+  }
+  return "";
+}
+
+template <typename T, std::size_t N>
+Result<T> value_of(const std::array<Name<T>, N>& names, std::string_view what, std::string_view text) {
+  std::string all;
+  for (const Name<T>& name : names) {
+    if (text == name.text) return name.value;
+    all += (all.empty() ? "" : ", ") + std::string(name.text);
+  }
+  return fail(Code::kInvalidArgument, std::string(what) + ": '" + std::string(text) + "' is not one of " + all);
+}
+
+tl::unexpected<Error> invalid(std::string message) { return fail(Code::kInvalidArgument, std::move(message)); }
+
+Status check_range(std::string_view flag, const std::optional<int>& value, int least, int most) {
+  if (!value || (*value >= least && *value <= most)) return {};
+  return invalid(std::string(flag) + " is " + std::to_string(*value) + ", must be from " + std::to_string(least) + " to " +
+                 std::to_string(most));
+}
+
+bool finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+Status check_camera(const PlacedCamera& camera) {
+  if (!finite(camera.eye) || !finite(camera.look_at)) return invalid("--eye and --look-at: every number must be finite");
+  if (!finite(camera.up_vector) || length(camera.up_vector) == 0) {
+    return invalid("--up-vector: must be finite and not zero");
+  }
+  const Vec3d view = camera.look_at - camera.eye;
+  if (length(view) == 0) return invalid("--look-at is the same point as --eye");
+  if (length(cross(normalize(view), normalize(camera.up_vector))) < 1e-9) {
+    return invalid("--up-vector is along the view from --eye to --look-at, must lie across it");
+  }
+  // Written so that NaN fails.
+  if (!(camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180)) {
+    return invalid("--fov is " + std::to_string(camera.vertical_fov_degrees) + " degrees, must be between 0 and 180");
+  }
+  return {};
+}
+
+Status check_camera(const NamedCamera& camera) {
+  if (camera.name_or_index.size() <= kMaxText) return {};
+  return invalid("--camera: name is longer than " + std::to_string(kMaxText) + " bytes");
+}
+
+/// "+id,-id,...", ids of lower-case letters, digits, '-' and '_'. Which ids exist is plan_effects' business.
+Status check_effects(std::string_view effects) {
+  if (effects.empty()) return {};
+  const Error wrong{Code::kInvalidArgument, "--effects: '" + std::string(effects.substr(0, 80)) +
+                                                "' must be ids with a sign, such as +textures,-masking"};
+  if (effects.size() > kMaxText) return tl::unexpected(wrong);
+  bool at_start = true;
+  std::size_t id_length = 1;
+  for (const char c : effects) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    if (at_start ? (c != '+' && c != '-') : (!letter && c != ',')) return tl::unexpected(wrong);
+    if (c == ',' && id_length == 0) return tl::unexpected(wrong);
+    id_length = at_start ? 0 : id_length + 1;
+    at_start = !at_start && c == ',';
+  }
+  if (at_start || id_length == 0) return tl::unexpected(wrong);
+  return {};
+}
+
+Json to_json(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json to_json(const NamedCamera& camera) { return {{"name", camera.name_or_index}}; }
+
+Json to_json(const PlacedCamera& camera) {
+  return {{"eye", to_json(camera.eye)},
+          {"look_at", to_json(camera.look_at)},
+          {"up_vector", to_json(camera.up_vector)},
+          {"vertical_fov_degrees", camera.vertical_fov_degrees}};
+}
+
+Status wrong_type(std::string_view key, std::string_view expected) {
+  return invalid(std::string(key) + ": must be " + std::string(expected));
+}
+
+Status read(const Json& json, std::string_view key, std::string& out) {
+  if (!json.is_string()) return wrong_type(key, "a string");
+  out = json.get<std::string>();
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, bool& out) {
+  if (!json.is_boolean()) return wrong_type(key, "true or false");
+  out = json.get<bool>();
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, std::uint64_t& out) {
+  const bool fits = json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
+  if (!fits) return wrong_type(key, "a whole number from 0 to 18446744073709551615");
+  out = json.get<std::uint64_t>();
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, int& out) {
+  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  const bool fits = json.is_number_unsigned() ? json.get<std::uint64_t>() <= static_cast<std::uint64_t>(kMost)
+                                              : json.is_number_integer() && json.get<std::int64_t>() >= -kMost;
+  if (!fits) return wrong_type(key, "a whole number");
+  out = json.get<int>();
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, double& out) {
+  if (!json.is_number()) return wrong_type(key, "a number");
+  out = json.get<double>();
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, float& out) {
+  double value = 0;
+  RADFARM_TRY_STATUS(read(json, key, value));
+  if (!(std::fabs(value) <= static_cast<double>(std::numeric_limits<float>::max()))) {
+    return wrong_type(key, "a number that a float can hold");
+  }
+  out = static_cast<float>(value);
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, Vec3d& out) {
+  if (!json.is_array() || json.size() != 3) return wrong_type(key, "three numbers");
+  RADFARM_TRY_STATUS(read(json[0], key, out.x));
+  RADFARM_TRY_STATUS(read(json[1], key, out.y));
+  return read(json[2], key, out.z);
+}
+
+Status read(const Json& json, std::string_view key, Integrator& out) {
+  std::string text;
+  RADFARM_TRY_STATUS(read(json, key, text));
+  RADFARM_TRY(out, integrator_from_string(text));
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, Quality& out) {
+  std::string text;
+  RADFARM_TRY_STATUS(read(json, key, text));
+  RADFARM_TRY(out, quality_from_string(text));
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, UpAxis& out) {
+  std::string text;
+  RADFARM_TRY_STATUS(read(json, key, text));
+  RADFARM_TRY(out, value_of(kUpAxes, key, text));
+  return {};
+}
+
+template <typename T>
+Status read(const Json& json, std::string_view key, std::optional<T>& out) {
+  T value{};
+  RADFARM_TRY_STATUS(read(json, key, value));
+  out = value;
+  return {};
+}
+
+Status unknown_key(std::string_view key) { return invalid("unknown key '" + std::string(key.substr(0, 80)) + "'"); }
+
+Status read(const Json& json, std::string_view key, std::variant<NamedCamera, PlacedCamera>& out) {
+  if (!json.is_object()) return wrong_type(key, "an object with name, or with eye and look_at");
+  NamedCamera named;
+  PlacedCamera placed;
+  for (const auto& [name, value] : json.items()) {
+    const std::string path = "camera." + name;
+    if (name == "name") RADFARM_TRY_STATUS(read(value, path, named.name_or_index));
+    else if (name == "eye") RADFARM_TRY_STATUS(read(value, path, placed.eye));
+    else if (name == "look_at") RADFARM_TRY_STATUS(read(value, path, placed.look_at));
+    else if (name == "up_vector") RADFARM_TRY_STATUS(read(value, path, placed.up_vector));
+    else if (name == "vertical_fov_degrees") RADFARM_TRY_STATUS(read(value, path, placed.vertical_fov_degrees));
+    else return unknown_key(path);
+  }
+  const bool is_named = json.contains("name") || json.empty();
+  if (is_named && json.size() > 1) return invalid("camera: has a name and a placement, must have one of them");
+  if (!is_named && !(json.contains("eye") && json.contains("look_at"))) {
+    return invalid("camera: a placed camera needs eye and look_at");
+  }
+  if (is_named) out = std::move(named);
+  else out = placed;
+  return {};
+}
+
+Status read_member(const std::string& key, const Json& value, RenderRequest& request) {
+  if (key == "integrator") return read(value, key, request.integrator);
+  if (key == "quality") return read(value, key, request.quality);
+  if (key == "camera") return read(value, key, request.camera);
+  if (key == "width") return read(value, key, request.width);
+  if (key == "height") return read(value, key, request.height);
+  if (key == "up") return read(value, key, request.up);
+  if (key == "seed") return read(value, key, request.seed);
+  if (key == "tile") return read(value, key, request.tile);
+  if (key == "samples") return read(value, key, request.samples);
+  if (key == "threshold") return read(value, key, request.threshold);
+  if (key == "audit") return read(value, key, request.audit);
+  if (key == "effects") return read(value, key, request.effects);
+  return unknown_key(key);
+}
+
+}  // namespace
+
+Status validate(const RenderRequest& request) {
+  RADFARM_TRY_STATUS(std::visit([](const auto& camera) { return check_camera(camera); }, request.camera));
+  RADFARM_TRY_STATUS(check_range("--size: width", request.width, 1, kMaxSide));
+  RADFARM_TRY_STATUS(check_range("--size: height", request.height, 1, kMaxSide));
+  RADFARM_TRY_STATUS(check_range("--tile", request.tile, 1, kMaxTile));
+  RADFARM_TRY_STATUS(check_range("--samples", request.samples, 1, kMaxSamples));
+  if (request.threshold && !(*request.threshold > 0 && std::isfinite(*request.threshold))) {
+    return invalid("--threshold is " + std::to_string(*request.threshold) + ", must be positive and finite, in cd/m^2");
+  }
+  return check_effects(request.effects);
+}
+
+nlohmann::json to_json(const RenderRequest& request) {
+  Json json = {{"integrator", to_string(request.integrator)},
+               {"quality", to_string(request.quality)},
+               {"up", name_of(kUpAxes, request.up)},
+               {"seed", request.seed},
+               {"tile", request.tile},
+               {"audit", request.audit},
+               {"effects", request.effects}};
+  json["camera"] = std::visit([](const auto& camera) { return to_json(camera); }, request.camera);
+  if (request.width) json["width"] = *request.width;
+  if (request.height) json["height"] = *request.height;
+  if (request.samples) json["samples"] = *request.samples;
+  if (request.threshold) json["threshold"] = *request.threshold;
+  return json;
+}
+
+Result<RenderRequest> render_request_from_json(const nlohmann::json& json) {
+  if (!json.is_object()) return invalid("a render request must be a JSON object");
+  RenderRequest request;
+  for (const auto& [key, value] : json.items()) RADFARM_TRY_STATUS(read_member(key, value, request));
+  return request;
+}
+
+std::string to_string(Integrator integrator) { return name_of(kIntegrators, integrator); }
+
+Result<Integrator> integrator_from_string(std::string_view name) { return value_of(kIntegrators, "integrator", name); }
+
+std::string to_string(Quality quality) { return name_of(kQualities, quality); }
+
+Result<Quality> quality_from_string(std::string_view name) { return value_of(kQualities, "quality", name); }
+
+}  // namespace radfarm

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "base/status.h"
+#include "math/vec.h"
+
+namespace radfarm {
+
+/// What a person asked for, as given: the flags of `radfarm render` that shape the image. prepare() turns it into resolved
+/// settings. Its JSON form crosses the network; docs/protocol.md lists the keys.
+struct RenderRequest {
+  enum class Integrator { kAuto, kGather, kFullGather, kPathTrace };
+  enum class Quality { kPreview, kStandard, kHigh, kReference };
+  enum class UpAxis { kY, kZ };
+
+  struct NamedCamera {
+    std::string name_or_index;  // a camera of the scene file; empty: the first, or framed when there is none
+    friend bool operator==(const NamedCamera&, const NamedCamera&) = default;
+  };
+  struct PlacedCamera {
+    Vec3d eye, look_at;  // metres, in the scene file's coordinates (after `up`)
+    Vec3d up_vector{0, 1, 0};
+    double vertical_fov_degrees = 45;
+    friend bool operator==(const PlacedCamera&, const PlacedCamera&) = default;
+  };
+
+  Integrator integrator = Integrator::kAuto;
+  Quality quality = Quality::kStandard;
+  std::variant<NamedCamera, PlacedCamera> camera;
+  std::optional<int> width, height;       // pixels, 1 to 16384; by default 640 wide at the camera's aspect
+  UpAxis up = UpAxis::kY;                 // OBJ only
+  std::uint64_t seed = 1;
+  int tile = 32;                          // pixels a side; never changes the image
+  std::optional<int> samples;             // camera samples a pixel; by default from quality
+  std::optional<float> threshold;         // largest accepted change of radiance, cd/m^2; by default from quality
+  bool audit = true;
+  std::string effects;                    // "+id,-id": forces effects on or off
+
+  friend bool operator==(const RenderRequest&, const RenderRequest&) = default;
+};
+
+/// INVALID_ARGUMENT when a value is out of range; the message names the flag and what would be right.
+Status validate(const RenderRequest& request);
+
+nlohmann::json to_json(const RenderRequest& request);
+/// Unknown keys and wrong types are INVALID_ARGUMENT; missing keys take their defaults.
+Result<RenderRequest> render_request_from_json(const nlohmann::json& json);
+
+std::string to_string(RenderRequest::Integrator integrator);                      // "path-trace"
+Result<RenderRequest::Integrator> integrator_from_string(std::string_view name);  // lists the names when wrong
+std::string to_string(RenderRequest::Quality quality);
+Result<RenderRequest::Quality> quality_from_string(std::string_view name);
+
+}  // namespace radfarm

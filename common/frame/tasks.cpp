@@ -1,0 +1,41 @@
+#include "frame/tasks.h"
+
+#include <algorithm>
+
+namespace radfarm {
+namespace {
+
+constexpr std::size_t kAuditPixelsPerTask = 32;
+
+int tiles_across(int pixels, int tile) { return (pixels + tile - 1) / tile; }
+
+}  // namespace
+
+std::vector<Task> cut_tasks(const Settings& settings) {
+  std::vector<Task> tasks;
+  const int tiles = tiles_across(settings.width, settings.tile) * tiles_across(settings.height, settings.tile);
+  for (int i = 0; i < tiles; ++i) tasks.push_back({Task::Kind::kTile, static_cast<std::uint32_t>(i)});
+  const std::size_t audited =
+      choose_audit_pixels(settings.width, settings.height, settings.audit_pixels, settings.seed).size();
+  for (std::size_t first = 0; first < audited; first += kAuditPixelsPerTask) {
+    tasks.push_back({Task::Kind::kAudit, static_cast<std::uint32_t>(first / kAuditPixelsPerTask)});
+  }
+  return tasks;
+}
+
+PixelRect tile_rect(const Settings& settings, std::uint32_t index) {
+  const int columns = tiles_across(settings.width, settings.tile);
+  const int x0 = static_cast<int>(index) % columns * settings.tile;
+  const int y0 = static_cast<int>(index) / columns * settings.tile;
+  return {x0, y0, std::min(x0 + settings.tile, settings.width), std::min(y0 + settings.tile, settings.height)};
+}
+
+std::vector<AuditPixel> audit_task_pixels(const Settings& settings, std::uint32_t index) {
+  const std::vector<AuditPixel> all =
+      choose_audit_pixels(settings.width, settings.height, settings.audit_pixels, settings.seed);
+  const std::size_t begin = std::min(all.size(), index * kAuditPixelsPerTask);
+  const std::size_t end = std::min(all.size(), begin + kAuditPixelsPerTask);
+  return {all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+}  // namespace radfarm

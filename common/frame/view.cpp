@@ -1,0 +1,48 @@
+#include "frame/view.h"
+
+#include "base/flat_file.h"
+
+namespace radfarm {
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+
+/// Camera without its name: a fixed layout.
+struct StoredCamera {
+  Camera::Kind kind;
+  Vec3 position, right, up, forward;
+  float vertical_fov, half_height, aspect;
+};
+
+bool is_sane(const Settings& s) {
+  const auto side = [](std::int32_t n) { return n >= 1 && n <= 16384; };
+  return side(s.width) && side(s.height) && side(s.tile) && s.camera_samples >= 1;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode(const View& view) {
+  FlatFileWriter file("view", kVersion);
+  const Camera& c = view.camera;
+  file.add_value("camera", StoredCamera{c.kind, c.position, c.right, c.up, c.forward, c.vertical_fov, c.half_height,
+                                        c.aspect});
+  file.add_value("settings", view.settings);
+  file.add_text("facts", view.facts);
+  file.add("grid", view.grid);
+  return file.finish();
+}
+
+Result<View> decode_view(std::span<const std::byte> bytes) {
+  RADFARM_TRY(const FlatFileReader file, FlatFileReader::open(bytes, "view", kVersion));
+  RADFARM_TRY(const StoredCamera stored, file.get_value<StoredCamera>("camera"));
+  View view;
+  view.camera = {"",         stored.kind,         stored.position,    stored.right, stored.up, stored.forward,
+                 stored.vertical_fov, stored.half_height, stored.aspect};
+  RADFARM_TRY(view.settings, file.get_value<Settings>("settings"));
+  RADFARM_TRY(view.facts, file.get_text("facts"));
+  RADFARM_TRY(view.grid, file.copy<std::byte>("grid"));
+  if (!is_sane(view.settings)) return fail(Code::kDataLoss, "view: its image size is out of range");
+  return view;
+}
+
+}  // namespace radfarm

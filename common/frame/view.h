@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/status.h"
+#include "estimate/settings.h"
+#include "scene/scene.h"
+
+namespace radfarm {
+
+/// One prepared view: what workers need besides scene and solution, and what the final report says of the stages before.
+struct View {
+  Camera camera;             // name not stored
+  Settings settings;
+  std::string facts;         // JSON text: scene, effects, stages, counts and energy so far (docs/formats.md)
+  std::vector<std::byte> grid;  // flat file of kind "grid"; empty when the integrator has none
+};
+
+/// Flat file of kind "view". Hostile bytes give DATA_LOSS.
+[[nodiscard]] std::vector<std::byte> encode(const View& view);
+Result<View> decode_view(std::span<const std::byte> bytes);
+
+}  // namespace radfarm

@@ -1,0 +1,33 @@
+#include "image/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "image/rgb.h"
+
+namespace radfarm {
+
+float auto_exposure(const Image& image) {
+  const Result<RgbLayer> rgb = rgb_layer(image);
+  if (!rgb) return 0;
+  std::vector<double> logarithms;
+  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+    const double y = luminance(SpectrumD(rgb->at(i)));
+    if (y > 0 && std::isfinite(y)) logarithms.push_back(std::log2(y));
+  }
+  if (logarithms.empty()) return 0;
+  std::sort(logarithms.begin(), logarithms.end());
+  const std::size_t trimmed = logarithms.size() / 20;
+  double sum = 0;
+  for (std::size_t i = trimmed; i < logarithms.size() - trimmed; ++i) sum += logarithms[i];
+  return static_cast<float>(std::log2(0.18) - sum / static_cast<double>(logarithms.size() - 2 * trimmed));
+}
+
+float srgb_from_linear(float linear) {
+  if (!(linear > 0)) return 0;
+  if (linear >= 1) return 1;
+  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
+}
+
+}  // namespace radfarm

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "base/status.h"
+#include "frame/report.h"
+#include "frame/request.h"
+#include "frame/task.h"
+#include "image/image.h"
+
+namespace radfarm {
+
+/// The product in three functions. `radfarm render` on a laptop and a job on a thousand workers run the same three; all
+/// that passes between them is bytes (docs/formats.md), so it may cross a network.
+
+/// What prepare() leaves for the workers: flat files, one blob each.
+struct PreparedFiles {
+  std::vector<std::byte> scene;     // geometry, materials, lights
+  std::vector<std::byte> solution;  // radiosity; nothing camera-dependent. Empty when no integrator needs it
+  std::vector<std::byte> view;      // camera, resolved settings, effects plan, grid, and what report() says of all stages
+};
+
+/// Loads and validates a scene, plans its effects, solves radiosity, classifies senders for one view.
+/// Errors: what load_scene refuses, no emitter, a camera that does not exist. Cost: seconds; uses all threads.
+Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request);
+
+/// The tasks of a prepared view, in the order in which they are best run. Tiles, then audit tasks.
+Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view);
+
+/// A prepared view opened for running tasks: acceleration structures built, arrays ready. Thread-safe when const.
+class Prepared {
+ public:
+  /// The bytes are copied or used in place: they must outlive this object.
+  static Result<Prepared> open(std::span<const std::byte> scene, std::span<const std::byte> solution,
+                               std::span<const std::byte> view);
+  Prepared(Prepared&&) noexcept;
+  Prepared& operator=(Prepared&&) noexcept;
+  ~Prepared();
+
+  struct Parts;
+  const Parts& parts() const { return *parts_; }
+
+ private:
+  explicit Prepared(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+/// One task's encoded sums: the same bytes whoever runs it, on the caller's thread alone. Cost: up to seconds.
+Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task);
+
+struct Finished {
+  Image image;                             // layers and header attributes of DESIGN section 9
+  std::unique_ptr<nlohmann::json> report;  // the report JSON of DESIGN section 9
+};
+
+/// Assembles the image from all results (in cut_tasks order) and audits it. DATA_LOSS when a result is damaged or missing,
+/// INTERNAL when the share of dropped samples is above its limit.
+Result<Finished> finish(std::span<const std::byte> view, std::span<const std::vector<std::byte>> results,
+                        const FarmFacts& farm);
+
+/// What `radfarm explain` and `radfarm info` print.
+Result<nlohmann::json> explain(const std::filesystem::path& scene_file, const RenderRequest& request);
+Result<nlohmann::json> describe_scene(const std::filesystem::path& scene_file);
+
+}  // namespace radfarm

@@ -1,0 +1,141 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "base/digest.h"
+#include "base/stopwatch.h"
+#include "effects/measure.h"
+#include "effects/plan.h"
+#include "frame/view.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/resolve.h"
+#include "scene/load_scene.h"
+#include "scene/scene_file.h"
+#include "scene/summary.h"
+#include "scene/world.h"
+
+namespace radfarm {
+namespace {
+
+using nlohmann::json;
+
+/// Times the stages of prepare() for the report.
+class StageClock {
+ public:
+  void end_stage(const char* name) {
+    stages_.push_back({{"name", name}, {"wall_s", watch_.wall_seconds()}, {"cpu_s", watch_.cpu_seconds()}});
+    watch_ = Stopwatch();
+  }
+  json stages() const { return stages_; }
+
+ private:
+  Stopwatch watch_;
+  json stages_ = json::array();
+};
+
+LoadOptions load_options(const RenderRequest& request) {
+  LoadOptions options;
+  options.up = request.up == RenderRequest::UpAxis::kZ ? LoadOptions::UpAxis::kZ : LoadOptions::UpAxis::kY;
+  return options;
+}
+
+/// A scene without light, or whose light can never be lost, has no image.
+Status check_light(const Measurements& m) {
+  if (m.emissive_triangles == 0 && m.punctual_lights == 0) {
+    return fail(Code::kInvalidArgument,
+                "the scene has no emitter: give it an emissive material, a light (KHR_lights_punctual), or --env");
+  }
+  if (m.emitted_flux > 0 && m.probes > 0 && m.escaped == 0 && m.min_reflectance >= 1) {
+    return fail(Code::kInvalidArgument,
+                "no light can be lost: every surface reflects all of it and none of " + std::to_string(m.probes) +
+                    " probes left the scene; lower a reflectance below 1 or open the scene");
+  }
+  return {};
+}
+
+json effects_json(const EffectsPlan& plan) {
+  json rows = json::array();
+  for (const EffectDecision& e : plan.effects) {
+    rows.push_back({{"id", e.id}, {"active", e.active}, {"test", e.test}, {"value", e.value},
+                    {"bound", std::isfinite(e.bound) ? json(e.bound) : json("unbounded")},
+                    {"bound_kind", e.bound_kind}, {"bound_scope", e.bound_scope}, {"note", e.note}});
+  }
+  return rows;
+}
+
+/// Everything before the integrators: loaded, made ready, measured and planned.
+struct Planned {
+  std::unique_ptr<World> world;
+  Measurements measurements;
+  EffectsPlan plan;
+  ChosenCamera camera;
+  Settings settings;
+  std::vector<std::byte> scene_bytes;
+  json facts;
+};
+
+json scene_facts(const Planned& planned) {
+  json facts = summarize(planned.world->scene);
+  facts["digest"] = sha256_hex(planned.scene_bytes);
+  return facts;
+}
+
+json warnings(const Planned& planned) {
+  json lines = json::array();
+  for (const std::string& note : planned.world->scene.notes) lines.push_back(note);
+  if (planned.camera.is_framed) lines.push_back("the file has no camera: framed the bulk of the geometry");
+  if (!(planned.measurements.emitted_flux > 0)) lines.push_back("all emitters have zero power: the image is black");
+  return lines;
+}
+
+Result<Planned> plan(const std::filesystem::path& scene_file, const RenderRequest& request, StageClock& clock) {
+  RADFARM_TRY_STATUS(validate(request));
+  Planned planned;
+  RADFARM_TRY(Scene scene, load_scene(scene_file, load_options(request)));
+  planned.scene_bytes = encode_scene(scene);
+  clock.end_stage("load");
+  planned.world = std::make_unique<World>(std::move(scene));
+  clock.end_stage("acceleration");
+  planned.measurements = measure(*planned.world, request.seed);
+  RADFARM_TRY_STATUS(check_light(planned.measurements));
+  RADFARM_TRY(planned.plan, plan_effects(planned.measurements, request.effects));
+  RADFARM_TRY(planned.camera, choose_camera(planned.world->scene, request));
+  planned.settings = resolve_settings(request, planned.camera.camera);
+  clock.end_stage("effects");
+  planned.facts = {{"scene", scene_facts(planned)},
+                   {"settings", {{"requested", to_json(request)}}},
+                   {"effects", effects_json(planned.plan)},
+                   {"counts", json::object()},
+                   {"energy", {{"emitted", planned.measurements.emitted_flux}, {"absorbed", nullptr},
+                               {"escaped", nullptr}, {"truncated", nullptr}, {"closure_error", nullptr}}},
+                   {"warnings", warnings(planned)}};
+  return planned;
+}
+
+}  // namespace
+
+Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request) {
+  StageClock clock;
+  RADFARM_TRY(Planned planned, plan(scene_file, request, clock));
+  PreparedFiles files;
+  planned.facts["stages"] = clock.stages();
+  planned.facts["peak_memory_bytes"] = peak_memory_bytes();
+  files.view = encode(View{planned.camera.camera, planned.settings, planned.facts.dump(), {}});
+  files.scene = std::move(planned.scene_bytes);
+  return files;
+}
+
+Result<json> explain(const std::filesystem::path& scene_file, const RenderRequest& request) {
+  StageClock clock;
+  RADFARM_TRY(Planned planned, plan(scene_file, request, clock));
+  planned.facts["settings"]["resolved"] = to_json(planned.settings);
+  planned.facts["stages"] = clock.stages();
+  return planned.facts;
+}
+
+Result<json> describe_scene(const std::filesystem::path& scene_file) {
+  RADFARM_TRY(const Scene scene, load_scene(scene_file));
+  return summarize(scene);
+}
+
+}  // namespace radfarm

@@ -1,0 +1,82 @@
+#include "pipeline/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/camera.h"
+
+namespace radfarm {
+namespace {
+
+constexpr int kDefaultWidth = 640;
+constexpr double kDefaultAspect = 16.0 / 9.0;
+
+/// One row a quality; error falls only when every column grows together.
+struct QualityRow {
+  std::uint32_t path_samples;
+  std::uint32_t gather_samples;
+  std::uint32_t audit_pixels;
+  std::uint32_t audit_samples;
+  float max_link_error;
+  std::uint32_t grid_columns;
+  std::uint32_t max_senders;
+  std::uint32_t vertex_samples;
+  float samples_per_gather;
+};
+
+constexpr QualityRow kQuality[] = {
+    {16, 4, 512, 32, 1e-3F, 16, 200, 600, 8},
+    {64, 16, 1024, 64, 3e-4F, 24, 400, 1200, 12},
+    {256, 64, 2048, 128, 1e-4F, 32, 800, 2400, 16},
+    {1024, 256, 4096, 256, 3e-5F, 48, 1600, 4800, 24},
+};
+
+void resolve_size(const RenderRequest& request, const Camera& camera, Settings& settings) {
+  const double aspect = camera.aspect > 0 ? static_cast<double>(camera.aspect) : kDefaultAspect;
+  const auto scaled = [](double pixels) { return std::clamp(static_cast<int>(std::lround(pixels)), 1, 16384); };
+  settings.width = request.width.value_or(request.height ? scaled(*request.height * aspect) : kDefaultWidth);
+  settings.height = request.height.value_or(scaled(settings.width / aspect));
+}
+
+}  // namespace
+
+Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& request) {
+  if (const auto* placed = std::get_if<RenderRequest::PlacedCamera>(&request.camera)) {
+    RADFARM_TRY(const Camera camera,
+                place_camera(to_float(placed->eye - scene.origin), to_float(placed->look_at - scene.origin),
+                             to_float(placed->up_vector),
+                             static_cast<float>(placed->vertical_fov_degrees * std::numbers::pi / 180)));
+    return ChosenCamera{camera, false};
+  }
+  const auto& named = std::get<RenderRequest::NamedCamera>(request.camera);
+  if (named.name_or_index.empty() && scene.cameras.empty()) return ChosenCamera{frame_scene(scene), true};
+  RADFARM_TRY(const Camera camera, find_camera(scene, named.name_or_index.empty() ? "0" : named.name_or_index));
+  return ChosenCamera{camera, false};
+}
+
+Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
+  const QualityRow& quality = kQuality[static_cast<std::size_t>(request.quality)];
+  const bool is_path = request.integrator == RenderRequest::Integrator::kPathTrace;
+  Settings settings;
+  settings.integrator = is_path ? Settings::Integrator::kPathTrace : Settings::Integrator::kGather;
+  resolve_size(request, camera, settings);
+  settings.tile = request.tile;
+  settings.seed = request.seed;
+  settings.camera_samples = request.samples ? static_cast<std::uint32_t>(*request.samples)
+                                            : (is_path ? quality.path_samples : quality.gather_samples);
+  settings.audit_pixels = request.audit ? quality.audit_pixels : 0;
+  settings.audit_samples = request.audit ? quality.audit_samples : 0;
+  settings.radiosity.max_link_error = quality.max_link_error;
+  settings.senders.columns = quality.grid_columns;
+  settings.senders.rows = std::max(2U, static_cast<std::uint32_t>(std::lround(
+                                           quality.grid_columns * static_cast<double>(settings.height) / settings.width)));
+  settings.senders.slices = quality.grid_columns;
+  settings.senders.max_senders = quality.max_senders;
+  settings.senders.vertex_samples = quality.vertex_samples;
+  settings.senders.samples_per_gather = quality.samples_per_gather;
+  settings.senders.threshold = request.threshold.value_or(0);
+  return settings;
+}
+
+}  // namespace radfarm

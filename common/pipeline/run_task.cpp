@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include "estimate/path_reference.h"
+#include "estimate/task_result.h"
+#include "frame/tasks.h"
+#include "pipeline/prepared.h"
+#include "scene/scene_file.h"
+
+namespace radfarm {
+namespace {
+
+Film film_of(const View& view) {
+  return {view.camera, view.settings.width, view.settings.height, view.settings.seed};
+}
+
+SampleRadiance path_integrator(const Prepared::Parts& parts) {
+  return [&world = parts.world](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
+    return trace_path(world, ray, sampler, counters);
+  };
+}
+
+std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t index) {
+  const Settings& settings = parts.view.settings;
+  TileResult result;
+  result.rect = tile_rect(settings, index);
+  result.pixels = render_tile(film_of(parts.view), result.rect, settings.camera_samples, path_integrator(parts),
+                              result.counters);
+  return encode(result);
+}
+
+std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t index) {
+  const Settings& settings = parts.view.settings;
+  const Film film = film_of(parts.view);
+  const SampleRadiance path = path_integrator(parts);
+  AuditResult result;
+  for (const AuditPixel& chosen : audit_task_pixels(settings, index)) {
+    AuditResult::Pixel pixel{chosen.x, chosen.y, {}, {}};
+    pixel.first = sample_pixel(film, Stream::kAuditFirst, chosen.x, chosen.y, 0, settings.audit_samples, path,
+                               result.counters);
+    pixel.second = sample_pixel(film, Stream::kAuditSecond, chosen.x, chosen.y, 0, settings.audit_samples, path,
+                                result.counters);
+    result.pixels.push_back(pixel);
+  }
+  return encode(result);
+}
+
+}  // namespace
+
+Prepared::Prepared(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Prepared::Prepared(Prepared&&) noexcept = default;
+Prepared& Prepared::operator=(Prepared&&) noexcept = default;
+Prepared::~Prepared() = default;
+
+Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<const std::byte> /*solution*/,
+                                std::span<const std::byte> view) {
+  RADFARM_TRY(View opened, decode_view(view));
+  RADFARM_TRY(Scene decoded, decode_scene(scene));
+  return Prepared(std::make_unique<Parts>(std::move(opened), std::move(decoded)));
+}
+
+Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view) {
+  RADFARM_TRY(const View opened, decode_view(view));
+  return cut_tasks(opened.settings);
+}
+
+Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task) {
+  const std::vector<Task> tasks = cut_tasks(prepared.parts().view.settings);
+  if (std::find(tasks.begin(), tasks.end(), task) == tasks.end()) {
+    return fail(Code::kInvalidArgument, "the view has no such task");
+  }
+  if (task.kind == Task::Kind::kAudit) return run_audit(prepared.parts(), task.index);
+  return run_tile(prepared.parts(), task.index);
+}
+
+}  // namespace radfarm

@@ -1,0 +1,250 @@
+#include "radiosity/hierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "base/check.h"
+#include "base/parallel.h"
+#include "math/sampling.h"
+
+namespace radfarm {
+namespace {
+
+// A patch longer than this share of its group's diagonal is split off before the rest is grouped.
+constexpr float kLargeShare = 0.3F;
+// Weight of orientation against place when groups are split: opposite normals are as far apart as this many diagonals.
+constexpr float kNormalWeight = 0.35F;
+// Textures are averaged over this many points of a triangle.
+constexpr int kLattice = 4;
+
+struct Item {
+  Vec3 centroid;
+  Vec3 normal;
+  float diameter = 0;
+  std::uint32_t patch = 0;
+};
+
+void average_material(const World& world, const Hit& corner, bool is_front, Patch& patch) {
+  SpectrumD reflectance, emission;
+  int count = 0;
+  for (int i = 0; i < kLattice; ++i) {
+    for (int j = 0; j < kLattice - i; ++j) {
+      Hit hit = corner;
+      hit.u = (static_cast<float>(i) + 1.0F / 3) / kLattice;
+      hit.v = (static_cast<float>(j) + 1.0F / 3) / kLattice;
+      SurfacePoint point = world.surfaces.at(hit);
+      point.is_front = is_front;
+      const auto coverage = static_cast<double>(world.surfaces.coverage(hit));
+      reflectance += coverage * SpectrumD(world.surfaces.reflectance(point));
+      emission += coverage * SpectrumD(world.surfaces.emission(point));
+      ++count;
+    }
+  }
+  patch.reflectance = Spectrum(reflectance / static_cast<double>(count));
+  patch.emission = Spectrum(emission / static_cast<double>(count));
+}
+
+float area_of(const TriangleVertices& v) {
+  return static_cast<float>(length(cross(to_double(v[1]) - to_double(v[0]), to_double(v[2]) - to_double(v[0]))) / 2);
+}
+
+Patch make_patch(const World& world, std::uint32_t instance, std::uint32_t triangle, bool is_front) {
+  Patch patch;
+  const Hit hit{instance, triangle, 1.0F / 3, 1.0F / 3, 0};
+  const SurfacePoint point = world.surfaces.at(hit);
+  patch.vertices = world.surfaces.triangle(instance, triangle);
+  patch.normal = is_front ? point.geometric_normal : -point.geometric_normal;
+  if (!is_front) std::swap(patch.vertices[1], patch.vertices[2]);
+  patch.offset = point.offset;
+  patch.instance = instance;
+  patch.triangle = triangle;
+  average_material(world, hit, is_front, patch);
+  const Material& material = world.scene.materials[point.material];
+  patch.is_textured_emitter = material.emission_texture != kNone && !is_black(patch.emission) ? 1 : 0;
+  return patch;
+}
+
+Item make_item(const Patch& patch, std::uint32_t id) {
+  const TriangleVertices& v = patch.vertices;
+  return {(v[0] + v[1] + v[2]) / 3, patch.normal,
+          std::max({length(v[1] - v[0]), length(v[2] - v[1]), length(v[0] - v[2])}), id};
+}
+
+std::array<float, 6> key_of(const Item& item, float normal_scale) {
+  const Vec3 n = item.normal * normal_scale;
+  return {item.centroid.x, item.centroid.y, item.centroid.z, n.x, n.y, n.z};
+}
+
+/// Orders the items so that the first `returned` of them form one child and the rest the other.
+std::size_t split(const Hierarchy& hierarchy, std::span<Item> items) {
+  Box3 box;
+  float mean_diameter = 0;
+  for (const Item& item : items) {
+    for (const Vec3& v : hierarchy.patches[item.patch].vertices) box.extendBy(v);
+    mean_diameter += item.diameter / static_cast<float>(items.size());
+  }
+  const float large = kLargeShare * length(box.size());
+  const auto middle = std::stable_partition(items.begin(), items.end(), [&](const Item& i) { return i.diameter > large; });
+  if (middle != items.begin() && middle != items.end()) return static_cast<std::size_t>(middle - items.begin());
+
+  const float normal_scale = kNormalWeight * std::max(length(box.size()), mean_diameter);
+  std::array<float, 6> low, high;
+  low.fill(std::numeric_limits<float>::infinity());
+  high.fill(-std::numeric_limits<float>::infinity());
+  for (const Item& item : items) {
+    const auto key = key_of(item, normal_scale);
+    for (std::size_t k = 0; k < 6; ++k) low[k] = std::min(low[k], key[k]), high[k] = std::max(high[k], key[k]);
+  }
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 6; ++k) axis = high[k] - low[k] > high[axis] - low[axis] ? k : axis;
+  const std::size_t half = items.size() / 2;
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
+                   [&](const Item& a, const Item& b) {
+                     const float ka = key_of(a, normal_scale)[axis], kb = key_of(b, normal_scale)[axis];
+                     return ka != kb ? ka < kb : a.patch < b.patch;
+                   });
+  return half;
+}
+
+void fill_from_patch(const Patch& patch, Node& node) {
+  for (const Vec3& v : patch.vertices) node.bounds.extendBy(v);
+  node.cone_axis = patch.normal;
+  node.cone_cosine = 1;
+  node.area = area_of(patch.vertices);
+  node.reflectance = patch.reflectance;
+  node.emitted_power = patch.emission * (kPi * node.area);
+}
+
+/// The smallest cone around both children's cones, a little too wide rather than too narrow.
+void merge_cones(const Node& a, const Node& b, Node& parent) {
+  parent.cone_axis = normalize(a.cone_axis + b.cone_axis);
+  parent.cone_cosine = -1;
+  if (a.cone_cosine <= -1 || b.cone_cosine <= -1 || length(parent.cone_axis) < 0.5F) return;
+  float widest = 0;
+  for (const Node* child : {&a, &b}) {
+    const float tilt = std::acos(std::clamp(dot(parent.cone_axis, child->cone_axis), -1.0F, 1.0F));
+    widest = std::max(widest, tilt + std::acos(std::clamp(child->cone_cosine, -1.0F, 1.0F)));
+  }
+  parent.cone_cosine = widest + 1e-3F < kPi ? std::cos(widest + 1e-3F) : -1;
+}
+
+void fill_from_children(const Hierarchy& hierarchy, Node& node) {
+  const Node& a = hierarchy.nodes[node.first_child];
+  const Node& b = hierarchy.nodes[node.first_child + 1];
+  node.bounds = a.bounds;
+  node.bounds.extendBy(b.bounds);
+  node.area = a.area + b.area;
+  node.reflectance = (a.reflectance * a.area + b.reflectance * b.area) / node.area;
+  node.emitted_power = a.emitted_power + b.emitted_power;
+  merge_cones(a, b, node);
+}
+
+struct PendingRange {
+  std::uint32_t node;
+  std::size_t begin, end;
+};
+
+void build_tree(Hierarchy& hierarchy, std::vector<Item>& items) {
+  hierarchy.nodes.resize(1);
+  std::vector<PendingRange> pending = {{0, 0, items.size()}};
+  hierarchy.leaves.resize(items.size());
+  while (!pending.empty()) {
+    const PendingRange range = pending.back();
+    pending.pop_back();
+    hierarchy.nodes[range.node].first_leaf = static_cast<std::uint32_t>(range.begin);
+    hierarchy.nodes[range.node].leaf_count = static_cast<std::uint32_t>(range.end - range.begin);
+    if (range.end - range.begin == 1) {
+      hierarchy.nodes[range.node].patch = items[range.begin].patch;
+      hierarchy.leaves[range.begin] = range.node;
+      continue;
+    }
+    const std::size_t first = split(hierarchy, std::span(items).subspan(range.begin, range.end - range.begin));
+    const auto child = static_cast<std::uint32_t>(hierarchy.nodes.size());
+    hierarchy.nodes[range.node].first_child = child;
+    hierarchy.nodes[range.node].child_count = 2;
+    hierarchy.nodes.resize(hierarchy.nodes.size() + 2);
+    hierarchy.nodes[child].parent = hierarchy.nodes[child + 1].parent = range.node;
+    pending.push_back({child, range.begin, range.begin + first});
+    pending.push_back({child + 1, range.begin + first, range.end});
+  }
+}
+
+}  // namespace
+
+Hierarchy build_hierarchy(const World& world) {
+  Hierarchy hierarchy;
+  std::vector<Hit> triangles;
+  for (std::uint32_t i = 0; i < world.scene.instances.size(); ++i) {
+    const std::size_t count = world.scene.meshes[world.scene.instances[i].mesh].triangles.size();
+    for (std::uint32_t t = 0; t < count; ++t) triangles.push_back({i, t, 0, 0, 0});
+  }
+  if (triangles.empty()) return hierarchy;
+  hierarchy.patches.resize(2 * triangles.size());
+  std::vector<Item> items(hierarchy.patches.size());
+  parallel_for(triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (const std::size_t side : {0, 1}) {
+        const std::size_t id = 2 * t + side;
+        hierarchy.patches[id] = make_patch(world, triangles[t].instance, triangles[t].triangle, side == 0);
+        items[id] = make_item(hierarchy.patches[id], static_cast<std::uint32_t>(id));
+      }
+    }
+  });
+  build_tree(hierarchy, items);
+  for (std::size_t i = hierarchy.nodes.size(); i-- > 0;) {
+    Node& node = hierarchy.nodes[i];
+    node.is_cluster() ? fill_from_children(hierarchy, node) : fill_from_patch(hierarchy.patches[node.patch], node);
+  }
+  hierarchy.area_before = {0};
+  hierarchy.emission_before = {0};
+  for (const std::uint32_t leaf : hierarchy.leaves) {
+    const Node& node = hierarchy.nodes[leaf];
+    hierarchy.area_before.push_back(hierarchy.area_before.back() + static_cast<double>(node.area));
+    hierarchy.emission_before.push_back(hierarchy.emission_before.back() + luminance(SpectrumD(node.emitted_power)));
+  }
+  return hierarchy;
+}
+
+std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node) {
+  RADFARM_CHECK(!hierarchy.nodes[node].is_cluster() && hierarchy.nodes[node].child_count == 0);
+  const auto first = static_cast<std::uint32_t>(hierarchy.nodes.size());
+  const Patch whole = hierarchy.patches[hierarchy.nodes[node].patch];
+  const auto& [a, b, c] = whole.vertices;
+  const Vec3 ab = (a + b) * 0.5F, bc = (b + c) * 0.5F, ca = (c + a) * 0.5F;
+  const TriangleVertices parts[4] = {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}};
+  for (const TriangleVertices& vertices : parts) {
+    Patch part = whole;
+    part.vertices = vertices;
+    Node child;
+    child.parent = node;
+    child.first_leaf = hierarchy.nodes[node].first_leaf;
+    child.leaf_count = 1;
+    child.patch = static_cast<std::uint32_t>(hierarchy.patches.size());
+    fill_from_patch(part, child);
+    hierarchy.patches.push_back(part);
+    hierarchy.nodes.push_back(child);
+  }
+  hierarchy.nodes[node].first_child = first;
+  hierarchy.nodes[node].child_count = 4;
+  return first;
+}
+
+NodeSample sample_node(const Hierarchy& hierarchy, const Node& node, SampleBy by, double choice, const Vec2& u) {
+  std::uint32_t id = node.patch;
+  if (node.is_cluster()) {
+    const std::vector<double>& before = by == SampleBy::kArea ? hierarchy.area_before : hierarchy.emission_before;
+    const double low = before[node.first_leaf], high = before[node.first_leaf + node.leaf_count];
+    const auto begin = before.begin() + node.first_leaf + 1, end = begin + node.leaf_count - 1;
+    // The last leaf takes what rounding leaves over; leaves of weight 0 are never chosen.
+    const auto leaf = std::upper_bound(begin, end, low + choice * (high - low)) - before.begin() - 1;
+    id = hierarchy.nodes[hierarchy.leaves[static_cast<std::size_t>(leaf)]].patch;
+  }
+  const Patch& patch = hierarchy.patches[id];
+  const Vec3 b = sample_uniform_triangle(u);
+  const Vec3 position = patch.vertices[0] * b.x + patch.vertices[1] * b.y + patch.vertices[2] * b.z;
+  return {position, patch.normal, patch.offset, id};
+}
+
+}  // namespace radfarm

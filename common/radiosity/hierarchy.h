@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "math/spectrum.h"
+#include "math/vec.h"
+#include "scene/world.h"
+
+namespace radfarm {
+
+/// One side of a triangle or of a part of it: what receives, reflects and emits. The two sides of a triangle are two
+/// patches, so nothing leaks through a single sheet (docs/pipeline.md, radiosity).
+struct Patch {
+  TriangleVertices vertices;      // counter-clockwise seen from this side
+  Vec3 normal;                    // unit
+  float offset = 0;               // ray offset, as SurfacePoint::offset
+  Spectrum reflectance;           // rho, mean over the patch
+  Spectrum emission;              // L_e from this side, mean over the patch, cd/m^2
+  std::uint32_t instance = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t is_textured_emitter = 0;
+};
+
+/// A cluster (children: two) or a patch (children: none, or four parts). Children have larger indices than their parent.
+struct Node {
+  Box3 bounds;
+  Vec3 cone_axis{0, 0, 1};        // unit; every patch normal below lies within the cone
+  float cone_cosine = -1;         // of the half angle; -1: any direction
+  float area = 0;                 // of all patches below, m^2
+  Spectrum reflectance;           // area-weighted mean
+  Spectrum emitted_power;         // pi L_e A summed, lm
+  std::uint32_t parent = kNone;
+  std::uint32_t first_child = kNone;
+  std::uint32_t child_count = 0;
+  std::uint32_t first_leaf = 0;   // clusters: the range of Hierarchy::leaves below; patches: their triangle side's
+  std::uint32_t leaf_count = 0;
+  std::uint32_t patch = kNone;    // index into patches; kNone for clusters
+
+  bool is_cluster() const { return patch == kNone; }
+};
+
+/// The cluster hierarchy over all patches: node 0 is the root. Grows only by subdivide().
+struct Hierarchy {
+  std::vector<Node> nodes;
+  std::vector<Patch> patches;
+  std::vector<std::uint32_t> leaves;        // nodes of whole triangle sides, in tree order
+  std::vector<double> area_before;          // over leaves: area before each, and the total last
+  std::vector<double> emission_before;      // over leaves: emitted luminous power before each, and the total last
+};
+
+/// Clusters group by place and orientation: a range is split at the median along its widest extent in (position, normal);
+/// patches large against their group are split off first, so that a wall never hides in a cluster of leaves.
+/// O(n log n), n = 2 x triangles. Deterministic.
+Hierarchy build_hierarchy(const World& world);
+
+/// Cuts a patch into four by its edges' midpoints; returns the first of the four new nodes. Requires: no children yet.
+std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node);
+
+/// A random point of a node's surfaces.
+struct NodeSample {
+  Vec3 position;
+  Vec3 normal;
+  float offset = 0;
+  std::uint32_t patch = 0;
+  Vec3 leave() const { return position + normal * offset; }
+};
+enum class SampleBy { kArea, kEmittedPower };
+/// Uniform over the node's area, or over its area weighted by emitted luminance. `choice` picks the patch, `u` the point.
+/// Requires: kEmittedPower only on nodes that emit.
+NodeSample sample_node(const Hierarchy& hierarchy, const Node& node, SampleBy by, double choice, const Vec2& u);
+
+}  // namespace radfarm

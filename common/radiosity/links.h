@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+
+#include "radiosity/hierarchy.h"
+
+namespace radfarm {
+
+inline constexpr std::uint32_t kEmittedPart = 1;
+inline constexpr std::uint32_t kReflectedPart = 2;
+
+/// How light of one sender reaches one receiver: form factor and visibility apart, emitted and reflected light apart.
+///
+/// A patch receiver gets the irradiance E = emitted * P_e + reflected * P_r from the sender's powers P (lm); a cluster
+/// receiver gets the same formula at normal incidence, and its patches their cosine to `direction`. (radiosity.3)
+struct Link {
+  std::uint32_t receiver = 0;
+  std::uint32_t sender = 0;         // a node, or punctual_sender(light)
+  Vec3 direction{0, 0, 0};          // unit, from receiver to sender
+  float emitted = 0;                // 1/m^2; of a punctual light: lux (luminance)
+  float reflected = 0;              // 1/m^2
+  float emitted_error = 0;          // 1/m^2: the oracle's part of `emitted` that may be misplaced
+  float reflected_error = 0;
+  float visibility = 1;             // mean over the samples
+  float occluder_distance = 0;      // from the receiver to the closest occluder met, m; 0: none met
+  float receiver_cosine = 1;        // clusters: mean max(0, cos) of their surfaces; 1 for patches
+  std::uint32_t evaluated = 0;      // parts of the sender's light it was evaluated for: kEmittedPart | kReflectedPart
+};
+
+/// Senders that are punctual lights count down from the top.
+constexpr std::uint32_t punctual_sender(std::uint32_t light) { return kNone - 1 - light; }
+constexpr bool is_punctual(std::uint32_t sender) { return sender >= 0x80000000U; }
+constexpr std::uint32_t punctual_index(std::uint32_t sender) { return kNone - 1 - sender; }
+
+/// Whether it is certain that no light passes from one node to the other: they look away from each other.
+bool cannot_see(const Hierarchy& hierarchy, std::uint32_t a, std::uint32_t b);
+
+/// Evaluates a link with `samples` random lines between the elements for each part of the sender's light that is there.
+/// Unoccluded factors of patch senders are exact (Lambert's polygon formula), of clusters sampled. Keyed by (seed, receiver,
+/// sender): the same bits whoever computes it. About 0.5 us a line.
+/// Requires: sender < hierarchy.nodes.size() (punctual lights: evaluate_punctual).
+Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t sender,
+                   bool has_emitted, bool has_reflected, std::uint32_t samples, std::uint64_t seed);
+
+/// The same for punctual light `light` of world.emitters: `emitted` is the mean irradiance (luminance, at normal incidence
+/// for clusters) in lux that arrives, to be scaled by the light's colour.
+Link evaluate_punctual(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t light,
+                       std::uint32_t samples, std::uint64_t seed);
+
+}  // namespace radfarm

@@ -1,0 +1,172 @@
+#include "radiosity/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace radfarm {
+namespace {
+
+/// What one round of refinement works with.
+struct Round {
+  const World& world;
+  Hierarchy& hierarchy;
+  NodePower& reflected;
+  const RadiositySettings& settings;
+  double max_error;       // lm
+  float min_patch_area;   // m^2
+  std::uint64_t seed;
+};
+
+double sender_emits(const Round& round, const Link& link) {
+  if (is_punctual(link.sender)) return 1;  // its strength is in the factor
+  return static_cast<double>(luminance(round.hierarchy.nodes[link.sender].emitted_power));
+}
+
+double sender_reflects(const Round& round, const Link& link) {
+  return is_punctual(link.sender) ? 0 : static_cast<double>(luminance(round.reflected[link.sender]));
+}
+
+/// Reflected power that the link may misplace, lm: rho A_r cos F D P.
+double misplaced_power(const Round& round, const Link& link) {
+  const Node& receiver = round.hierarchy.nodes[link.receiver];
+  const double absorbs = static_cast<double>(max_component(receiver.reflectance) * receiver.area);
+  return absorbs * (static_cast<double>(link.emitted_error) * sender_emits(round, link) +
+                    static_cast<double>(link.reflected_error) * sender_reflects(round, link));
+}
+
+/// Whether the sender has light now that the link was not evaluated for.
+bool is_outdated(const Round& round, const Link& link) {
+  return ((link.evaluated & kEmittedPart) == 0 && sender_emits(round, link) > 0) ||
+         ((link.evaluated & kReflectedPart) == 0 && sender_reflects(round, link) > 0);
+}
+
+Link evaluate(const Round& round, const Link& link) {
+  if (is_punctual(link.sender)) {
+    return evaluate_punctual(round.world, round.hierarchy, link.receiver, punctual_index(link.sender),
+                             round.settings.samples_per_link, round.seed);
+  }
+  return evaluate_link(round.world, round.hierarchy, link.receiver, link.sender, sender_emits(round, link) > 0,
+                       sender_reflects(round, link) > 0, round.settings.samples_per_link, round.seed);
+}
+
+bool can_split(const Round& round, std::uint32_t node) {
+  const Node& n = round.hierarchy.nodes[node];
+  return n.child_count > 0 || n.area > 4 * round.min_patch_area;
+}
+
+/// The children of a node, cut first if it is a whole patch.
+std::pair<std::uint32_t, std::uint32_t> children(const Round& round, std::uint32_t node) {
+  if (round.hierarchy.nodes[node].child_count == 0) {
+    subdivide(round.hierarchy, node);
+    // The four parts reflect what the whole did, by area.
+    const Node& whole = round.hierarchy.nodes[node];
+    for (std::uint32_t i = 0; i < whole.child_count; ++i) {
+      const float share = round.hierarchy.nodes[whole.first_child + i].area / whole.area;
+      round.reflected.push_back(round.reflected[node] * share);
+    }
+  }
+  const Node& n = round.hierarchy.nodes[node];
+  return {n.first_child, n.child_count};
+}
+
+enum class Cut { kNone, kReceiver, kSender, kBoth };
+
+Cut choose_cut(const Round& round, const Link& link) {
+  if (link.receiver == link.sender) {
+    return round.hierarchy.nodes[link.receiver].is_cluster() ? Cut::kBoth : Cut::kNone;
+  }
+  const bool receiver = can_split(round, link.receiver);
+  if (is_punctual(link.sender)) return receiver ? Cut::kReceiver : Cut::kNone;
+  const bool sender = can_split(round, link.sender);
+  if (!receiver && !sender) return Cut::kNone;
+  if (!sender) return Cut::kReceiver;
+  if (!receiver) return Cut::kSender;
+  const float receiver_size = length(round.hierarchy.nodes[link.receiver].bounds.size());
+  const float sender_size = length(round.hierarchy.nodes[link.sender].bounds.size());
+  return receiver_size >= sender_size ? Cut::kReceiver : Cut::kSender;
+}
+
+void push_candidate(const Round& round, std::uint32_t receiver, std::uint32_t sender, std::vector<Link>& next) {
+  if (!is_punctual(sender) && receiver != sender && cannot_see(round.hierarchy, receiver, sender)) return;
+  if (receiver == sender && !round.hierarchy.nodes[receiver].is_cluster()) return;
+  Link link;
+  link.receiver = receiver;
+  link.sender = sender;
+  next.push_back(link);
+}
+
+void split_link(const Round& round, const Link& link, Cut cut, std::vector<Link>& next) {
+  std::pair<std::uint32_t, std::uint32_t> receivers(link.receiver, 1), senders(link.sender, 1);
+  if (cut == Cut::kReceiver || cut == Cut::kBoth) receivers = children(round, link.receiver);
+  if (cut == Cut::kSender || cut == Cut::kBoth) senders = children(round, link.sender);
+  for (std::uint32_t r = 0; r < receivers.second; ++r) {
+    for (std::uint32_t s = 0; s < senders.second; ++s) {
+      push_candidate(round, receivers.first + r, senders.first + s, next);
+    }
+  }
+}
+
+/// A node's light to itself has no single direction: it is cut as long as its own light matters at all.
+bool is_accepted(const Round& round, const Link& link) {
+  if (link.receiver == link.sender) {
+    const Node& node = round.hierarchy.nodes[link.receiver];
+    const double own = sender_emits(round, link) + sender_reflects(round, link);
+    return own * static_cast<double>(max_component(node.reflectance)) < round.max_error;
+  }
+  return misplaced_power(round, link) < round.max_error;
+}
+
+/// Certain for links whose every part was measured, or whose sender can never reflect.
+bool carries_nothing(const Round& round, const Link& link) {
+  const bool is_final = is_punctual(link.sender) || (link.evaluated & kReflectedPart) != 0 ||
+                        is_black(round.hierarchy.nodes[link.sender].reflectance);
+  return is_final && link.emitted == 0 && link.reflected == 0 && link.emitted_error == 0 && link.reflected_error == 0;
+}
+
+}  // namespace
+
+std::vector<Link> initial_links(const World& world, const Hierarchy& hierarchy) {
+  std::vector<Link> links;
+  if (hierarchy.nodes.empty()) return links;
+  links.emplace_back();
+  for (std::uint32_t i = 0; i < world.emitters.punctual.size(); ++i) {
+    links.emplace_back();
+    links.back().sender = punctual_sender(i);
+  }
+  return links;
+}
+
+std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
+                   const RadiositySettings& settings, double emitted_flux, std::uint64_t seed) {
+  if (hierarchy.nodes.empty()) return 0;
+  const Round round{world, hierarchy, reflected, settings, static_cast<double>(settings.max_link_error) * emitted_flux,
+                    settings.min_patch_area * hierarchy.nodes[0].area, seed};
+  std::vector<Link> accepted, candidates = std::move(links), next;
+  std::size_t splits = 0;
+  while (!candidates.empty()) {
+    parallel_for(candidates.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        Link& link = candidates[i];
+        if (link.receiver != link.sender && is_outdated(round, link)) link = evaluate(round, link);
+      }
+    });
+    next.clear();
+    for (const Link& link : candidates) {
+      const Cut cut = is_accepted(round, link) ? Cut::kNone : choose_cut(round, link);
+      const bool has_room = accepted.size() + next.size() + candidates.size() < settings.max_links;
+      if (cut != Cut::kNone && has_room) {
+        split_link(round, link, cut, next);
+        ++splits;
+      } else if (!carries_nothing(round, link)) {
+        accepted.push_back(link);
+      }
+    }
+    candidates.swap(next);
+  }
+  links = std::move(accepted);
+  return splits;
+}
+
+}  // namespace radfarm

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "radiosity/links.h"
+#include "radiosity/settings.h"
+
+namespace radfarm {
+
+/// Powers that the nodes send now, lm, one a node: emitted lives in the nodes, reflected here.
+using NodePower = std::vector<Spectrum>;
+
+/// The first link of all: the root to itself, and every punctual light to the root. Not evaluated.
+std::vector<Link> initial_links(const World& world, const Hierarchy& hierarchy);
+
+/// Refines links until each one's oracle error, the reflected power it may misplace, is below max_link_error x
+/// `emitted_flux`, or its elements cannot be cut further, or max_links is reached.      docs/pipeline.md (radiosity.4)
+///
+/// Level by level: all candidates of a level are evaluated in parallel, then accepted or split in order, so that the result
+/// does not depend on the number of threads. Links that carry nothing and never will are dropped.
+/// Returns the number of links split.
+std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
+                   const RadiositySettings& settings, double emitted_flux, std::uint64_t seed);
+
+}  // namespace radfarm

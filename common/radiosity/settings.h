@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+namespace radfarm {
+
+/// What steers the radiosity solve. Enters the solution's key: nothing camera-dependent may stand here.
+struct RadiositySettings {
+  float max_link_error = 2e-4F;        // largest accepted reflected power that a link may misplace, share of emitted flux
+  float min_patch_area = 1e-5F;        // patches are not cut below this share of the scene's area
+  float residual = 1e-3F;              // solve until an iteration changes the reflected power by less than this share
+  std::uint32_t samples_per_link = 10; // random lines between the two elements of a link
+  std::uint32_t max_links = 3'000'000;
+  std::uint32_t max_passes = 4;        // refine with the current radiosity, solve again
+};
+
+}  // namespace radfarm

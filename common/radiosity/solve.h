@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "radiosity/refine.h"
+
+namespace radfarm {
+
+/// Where the light went, lm (luminance). emitted = absorbed + escaped + truncated, up to rounding.
+struct EnergyLedger {
+  double emitted = 0;
+  double absorbed = 0;
+  double escaped = 0;        // left the scene, or was lost to the error of links
+  double truncated = 0;      // not yet reflected when the solve stopped
+};
+
+/// Diffuse interreflection of a scene, independent of any camera.
+struct RadiositySolution {
+  Hierarchy hierarchy;
+  std::vector<Spectrum> reflected_power;   // lm, one a node: rho E A summed over its patches
+  EnergyLedger energy;
+  std::size_t links = 0;
+  std::size_t passes = 0;
+  std::size_t iterations = 0;
+};
+
+/// Hierarchical radiosity with clustering.                               docs/pipeline.md (radiosity.1) to (radiosity.5)
+///
+/// Solves B = pi L_e + rho E, E the irradiance gathered over links: refine with the light known so far, gather and pull until
+/// an iteration changes the reflected power by less than `residual`, and again with the new light until nothing is split.
+/// Cost: links x samples_per_link rays, then O(links + leaves x depth) an iteration. Deterministic for any thread count.
+RadiositySolution solve_radiosity(const World& world, const RadiositySettings& settings, std::uint64_t seed);
+
+}  // namespace radfarm

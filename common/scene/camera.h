@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "base/status.h"
+#include "scene/scene.h"
+
+namespace radfarm {
+
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;  // unit, unless a function says otherwise
+};
+
+/// The ray through the film at (x, y) in pixels, (0, 0) the top left corner of the image, pixel centres at .5.
+Ray camera_ray(const Camera& camera, int width, int height, float x, float y);
+
+/// A camera that looks from `eye` at `look_at`. INVALID_ARGUMENT when they coincide; an up vector along the view is
+/// replaced by another axis.
+Result<Camera> place_camera(const Vec3& eye, const Vec3& look_at, const Vec3& up, float vertical_fov);
+
+/// A camera of the scene by name or by index; NOT_FOUND lists what there is.
+Result<Camera> find_camera(const Scene& scene, std::string_view name_or_index);
+
+/// A camera that sees the bulk of the geometry (the box of the area-weighted 1st to 99th percentiles), from inside when
+/// that box looks like a room (its surfaces face inwards), from outside otherwise.
+Camera frame_scene(const Scene& scene);
+
+}  // namespace radfarm

@@ -1,0 +1,113 @@
+#include "scene/emitters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace radfarm {
+namespace {
+
+// Emission textures are averaged over this many points a triangle, on an (n+1)(n+2)/2 barycentric lattice's centroids.
+constexpr int kLattice = 8;
+
+Spectrum mean_radiance(const Surfaces& surfaces, std::uint32_t instance, std::uint32_t triangle) {
+  SpectrumD sum;
+  int count = 0;
+  for (int i = 0; i < kLattice; ++i) {
+    for (int j = 0; j < kLattice - i; ++j) {
+      const Hit hit{instance, triangle, (static_cast<float>(i) + 1.0F / 3) / kLattice,
+                    (static_cast<float>(j) + 1.0F / 3) / kLattice, 0};
+      sum += SpectrumD(surfaces.emission(surfaces.at(hit)));
+      ++count;
+    }
+  }
+  return Spectrum(sum / static_cast<double>(count));
+}
+
+double luminous_flux(const EmissiveTriangle& t) {
+  return std::numbers::pi * t.area * luminance(t.mean_radiance) * (t.both_sides ? 2 : 1);
+}
+
+/// Point and spot: lumens, the spot's as if its cone were all at full intensity. Directional: a nominal share.
+double luminous_flux(const PunctualLight& light) {
+  const double intensity = luminance(light.intensity);
+  if (light.kind == PunctualLight::Kind::kSpot) return 2 * std::numbers::pi * intensity * (1 - light.cos_outer);
+  return 4 * std::numbers::pi * intensity;
+}
+
+void collect_triangles(const Surfaces& surfaces, std::uint32_t instance, Emitters& emitters) {
+  const Mesh& mesh = surfaces.scene().meshes[surfaces.scene().instances[instance].mesh];
+  const Material& material = surfaces.scene().materials[mesh.material];
+  emitters.first_of_instance.push_back(kNone);
+  if (is_black(material.emission)) return;
+  emitters.first_of_instance.back() = static_cast<std::uint32_t>(emitters.slot.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    EmissiveTriangle emitter;
+    emitter.instance = instance;
+    emitter.triangle = t;
+    emitter.vertices = surfaces.triangle(instance, t);
+    const Vec3d normal = cross(to_double(emitter.vertices[1]) - to_double(emitter.vertices[0]),
+                               to_double(emitter.vertices[2]) - to_double(emitter.vertices[0]));
+    emitter.area = static_cast<float>(length(normal) / 2);
+    emitter.normal = to_float(normalize(normal));
+    emitter.both_sides = material.emits_from_both_sides;
+    emitter.mean_radiance =
+        material.emission_texture == kNone ? material.emission : mean_radiance(surfaces, instance, t);
+    ++emitters.declared_triangles;
+    const bool gives_light = emitter.area > 0 && luminance(emitter.mean_radiance) > 0;
+    emitters.slot.push_back(gives_light ? static_cast<std::uint32_t>(emitters.triangles.size()) : kNone);
+    if (gives_light) emitters.triangles.push_back(emitter);
+  }
+}
+
+}  // namespace
+
+std::uint32_t Emitters::find(std::uint32_t instance, std::uint32_t triangle) const {
+  const std::uint32_t first = first_of_instance[instance];
+  return first == kNone ? kNone : slot[first + triangle];
+}
+
+Emitters find_emitters(const Surfaces& surfaces) {
+  Emitters emitters;
+  for (std::uint32_t i = 0; i < surfaces.scene().instances.size(); ++i) collect_triangles(surfaces, i, emitters);
+  for (const PunctualLight& light : surfaces.scene().lights) {
+    if (luminance(light.intensity) > 0) emitters.punctual.push_back(light);
+  }
+  std::vector<double> flux;
+  for (const EmissiveTriangle& t : emitters.triangles) flux.push_back(luminous_flux(t));
+  for (const PunctualLight& light : emitters.punctual) flux.push_back(luminous_flux(light));
+  for (const double f : flux) emitters.total_flux += f;
+  std::vector<double> weights;
+  for (const double f : flux) {
+    weights.push_back(0.9 * f / emitters.total_flux + 0.1 / static_cast<double>(flux.size()));
+  }
+  emitters.choice = DiscreteDistribution(weights);
+  return emitters;
+}
+
+PunctualArrival arrive(const PunctualLight& light, const Vec3& point, float scene_radius) {
+  PunctualArrival arrival;
+  if (light.kind == PunctualLight::Kind::kDirectional) {
+    arrival.direction = -light.direction;
+    arrival.target = point + arrival.direction * (4 * scene_radius);
+    arrival.irradiance = light.intensity;
+    return arrival;
+  }
+  const Vec3 offset = light.position - point;
+  const float squared = dot(offset, offset);
+  if (!(squared > 0)) return arrival;
+  arrival.direction = offset / std::sqrt(squared);
+  arrival.target = light.position;
+  float falloff = 1;
+  if (light.kind == PunctualLight::Kind::kSpot) {
+    // KHR_lights_punctual: linear in the cosine between the cones, squared.
+    const float cosine = -dot(arrival.direction, light.direction);
+    const float width = std::max(0.001F, light.cos_inner - light.cos_outer);
+    const float t = std::clamp((cosine - light.cos_outer) / width, 0.0F, 1.0F);
+    falloff = t * t;
+  }
+  arrival.irradiance = light.intensity * (falloff / squared);
+  return arrival;
+}
+
+}  // namespace radfarm

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "math/sampling.h"
+#include "scene/surface.h"
+
+namespace radfarm {
+
+/// One triangle that emits, in world space, counter-clockwise from its front.
+struct EmissiveTriangle {
+  std::uint32_t instance = 0;
+  std::uint32_t triangle = 0;
+  TriangleVertices vertices;
+  Vec3 normal;                 // unit, front
+  float area = 0;              // m^2
+  Spectrum mean_radiance;      // over the texture on the triangle
+  bool both_sides = false;
+};
+
+/// Everything in a scene that gives light, and how to choose one: with probability 0.9 by luminous power, else uniformly,
+/// so that a lamp that is weak against the others is still found when it is the only one in its room (ALGORITHMS H37).
+struct Emitters {
+  std::vector<EmissiveTriangle> triangles;
+  std::vector<PunctualLight> punctual;
+  DiscreteDistribution choice;           // over triangles, then punctual lights
+  double total_flux = 0;                 // lumens of triangles and point lights
+  std::size_t declared_triangles = 0;    // triangles of materials that emit, zero power included
+
+  std::size_t size() const { return triangles.size() + punctual.size(); }
+  /// The triangle's index in `triangles`, or kNone.
+  std::uint32_t find(std::uint32_t instance, std::uint32_t triangle) const;
+
+  std::vector<std::uint32_t> first_of_instance;  // into `slot`, kNone when the instance does not emit
+  std::vector<std::uint32_t> slot;               // per triangle of emitting instances
+};
+
+/// Collects the emitters. Zero-power ones are left out of `triangles` but counted. Cost: O(emissive triangles).
+Emitters find_emitters(const Surfaces& surfaces);
+
+/// Irradiance per unit cosine, lux, that a punctual light gives at `point` unoccluded, and the direction to it.
+struct PunctualArrival {
+  Spectrum irradiance;
+  Vec3 direction{0, 0, 1};  // unit, towards the light
+  Vec3 target{0, 0, 0};     // where a visibility ray ends
+};
+PunctualArrival arrive(const PunctualLight& light, const Vec3& point, float scene_radius);
+
+}  // namespace radfarm

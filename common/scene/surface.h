@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "math/spectrum.h"
+#include "math/vec.h"
+#include "scene/scene.h"
+
+namespace radfarm {
+
+/// Where a ray met the scene: a point of one triangle of one instance. (u, v) are the weights of its vertices 1 and 2.
+struct Hit {
+  std::uint32_t instance = kNone;
+  std::uint32_t triangle = kNone;
+  float u = 0;
+  float v = 0;
+  float distance = 0;  // along the ray, in lengths of its direction
+};
+
+/// What the integrators need to know of a surface point. All normals are unit and agree in their hemisphere.
+struct SurfacePoint {
+  Vec3 position;
+  Vec3 geometric_normal;  // towards the front side, until face() turns it
+  Vec3 shading_normal;
+  float offset = 0;       // how far off the surface a ray must start to miss the triangle it leaves, m
+  std::uint32_t material = 0;
+  bool is_front = true;   // face(): the side looked at is the front
+  std::array<Vec2, 2> uv{Vec2(0, 0), Vec2(0, 0)};
+  std::array<float, 4> color{1, 1, 1, 1};
+};
+
+using TriangleVertices = std::array<Vec3, 3>;
+
+/// The scene's triangles in world space, with what Scene leaves to be derived. Borrows the scene, which must outlive it.
+/// Every float that the ray caster sees comes from here, so all stages agree on where a surface is. Thread-safe.
+class Surfaces {
+ public:
+  explicit Surfaces(const Scene& scene);
+
+  const Scene& scene() const { return *scene_; }
+  /// Counter-clockwise seen from the front; O(1).
+  TriangleVertices triangle(std::uint32_t instance, std::uint32_t triangle) const;
+  /// All the geometry at a hit. About 50 ns.
+  SurfacePoint at(const Hit& hit) const;
+  /// rho of the surface in [0, 1], textures and vertex colours included.
+  Spectrum reflectance(const SurfacePoint& point) const;
+  /// Radiance emitted from the side that `point` shows, cd/m^2; black from the back of a single-sided emitter.
+  Spectrum emission(const SurfacePoint& point) const;
+  /// The share of light that the surface stops at a hit, in [0, 1] (DESIGN 7: alpha is coverage).
+  float coverage(const Hit& hit) const;
+  /// Whether coverage() can be below 1 anywhere on the instance's mesh.
+  bool has_holes(std::uint32_t mesh) const { return mesh_has_holes_[mesh]; }
+  /// Whether the instance's transform turns left into right.
+  bool is_mirrored(std::uint32_t instance) const { return placements_[instance].is_mirrored; }
+
+ private:
+  struct Placement {
+    Matrix4 normal_to_world;  // inverse transpose
+    bool is_mirrored = false;
+  };
+  const Scene* scene_;
+  std::vector<Placement> placements_;
+  std::vector<bool> mesh_has_holes_;
+};
+
+/// Turns both normals towards `to_viewer` and records which side that is.
+void face(SurfacePoint& point, const Vec3& to_viewer);
+
+/// The start of a ray that leaves the surface on the side its geometric normal shows.
+inline Vec3 leave(const SurfacePoint& point) { return point.position + point.geometric_normal * point.offset; }
+
+}  // namespace radfarm

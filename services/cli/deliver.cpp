@@ -1,0 +1,118 @@
+#include "cli/deliver.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/file.h"
+#include "image/exr.h"
+#include "image/png.h"
+#include "image/tone_map.h"
+#include "rpc/limits.h"
+
+namespace radfarm::cli {
+namespace {
+
+std::optional<float> parse_exposure(const std::string& text) {
+  float value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || stop != text.data() + text.size() || !(std::fabs(value) <= 100)) return std::nullopt;
+  return value;
+}
+
+Status check_folder(const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    return fail(Code::kNotFound, file.string() + ": the folder " + folder.string() + " does not exist");
+  }
+  if (std::filesystem::is_directory(file, ignored)) {
+    return fail(Code::kInvalidArgument, file.string() + ": is a folder, must be a file");
+  }
+  if (::access(folder.c_str(), W_OK) == 0) return {};
+  return fail(Code::kPermissionDenied, file.string() + ": cannot write into " + folder.string());
+}
+
+Result<std::vector<std::byte>> download(FarmClient& client, const JobStatus& job, const std::string& name) {
+  const auto found = std::find_if(job.artifacts.begin(), job.artifacts.end(),
+                                  [&](const Artifact& artifact) { return artifact.name == name; });
+  if (found == job.artifacts.end()) return fail(Code::kDataLoss, "job " + job.id + " left no " + name);
+  return client.blobs().download(found->blob.digest, limits::kBlobBytes);
+}
+
+Status write_png(std::span<const std::byte> exr, const Outputs& outputs) {
+  RADFARM_TRY(const Image image, decode_exr(exr));
+  const std::optional<float> exposure = parse_exposure(outputs.exposure);
+  RADFARM_TRY(const std::vector<std::byte> png, encode_png(image, exposure ? *exposure : auto_exposure(image)));
+  return write_file_atomically(outputs.png, png);
+}
+
+}  // namespace
+
+void add_output_flags(CLI::App& app, Outputs& outputs) {
+  app.add_option("-o,--output", outputs.exr, "OUT.exr: scene-linear image with its layers")->required();
+  app.add_option("--png", outputs.png, "OUT.png: for viewing");
+  app.add_option("--exposure", outputs.exposure, "EV (stops) or auto, for --png");
+  app.add_option("--report", outputs.report, "OUT.json: settings, effects, times, counts, measured error");
+}
+
+Status check_usage(const Outputs& outputs) {
+  if (outputs.exr.extension() != ".exr") {
+    return fail(Code::kInvalidArgument, "-o: '" + outputs.exr.string() + "' must end in .exr");
+  }
+  if (!outputs.png.empty() && outputs.png.extension() != ".png") {
+    return fail(Code::kInvalidArgument, "--png: '" + outputs.png.string() + "' must end in .png");
+  }
+  if (outputs.report.extension() == ".html") {
+    return fail(Code::kUnimplemented, "--report OUT.html is not built yet: use OUT.json");
+  }
+  if (!outputs.report.empty() && outputs.report.extension() != ".json") {
+    return fail(Code::kInvalidArgument, "--report: '" + outputs.report.string() + "' must end in .json");
+  }
+  if (outputs.exposure != "auto" && !parse_exposure(outputs.exposure)) {
+    return fail(Code::kInvalidArgument,
+                "--exposure: '" + outputs.exposure + "' is neither auto nor a number from -100 to 100");
+  }
+  return {};
+}
+
+Status check_folders(const Outputs& outputs) {
+  RADFARM_TRY_STATUS(check_folder(outputs.exr));
+  RADFARM_TRY_STATUS(check_folder(outputs.png));
+  return check_folder(outputs.report);
+}
+
+Result<nlohmann::json> deliver(FarmClient& client, const JobStatus& job, const Outputs& outputs) {
+  RADFARM_TRY(const std::vector<std::byte> text, download(client, job, "report.json"));
+  const auto* const begin = reinterpret_cast<const char*>(text.data());
+  nlohmann::json report = nlohmann::json::parse(begin, begin + text.size(), nullptr, /*allow_exceptions=*/false);
+  if (!report.is_object()) return fail(Code::kDataLoss, "job " + job.id + ": its report is not JSON");
+  report["image"]["path"] = outputs.exr.string();
+
+  RADFARM_TRY(const std::vector<std::byte> exr, download(client, job, "image.exr"));
+  RADFARM_TRY_STATUS(write_file_atomically(outputs.exr, exr));
+  if (!outputs.png.empty()) RADFARM_TRY_STATUS(write_png(exr, outputs));
+  if (!outputs.report.empty()) {
+    const std::string dumped = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    RADFARM_TRY_STATUS(write_file_atomically(outputs.report, dumped));
+  }
+  return report;
+}
+
+Status check_succeeded(const JobStatus& job) {
+  if (job.state == JobState::kSucceeded) return {};
+  if (job.state == JobState::kCancelled) return fail(Code::kCancelled, "job " + job.id + " was cancelled");
+  // A failed job is the input's fault for the shell, whatever went wrong inside (exit code 3).
+  if (job.failure.reason == JobFailure::Reason::kSceneInvalid) {
+    return fail(Code::kInvalidArgument, job.failure.error.message);
+  }
+  return fail(Code::kFailedPrecondition, to_string(job.failure.reason) + ": " + job.failure.error.message);
+}
+
+}  // namespace radfarm::cli

@@ -1,0 +1,54 @@
+#include "cli/events.h"
+
+#include <utility>
+
+namespace radfarm::cli {
+
+void Events::interrupt() {
+  const std::lock_guard lock(mutex_);
+  seen_.interrupted = fresh_ = true;
+  changed_.notify_all();
+}
+
+void Events::child_ended() {
+  const std::lock_guard lock(mutex_);
+  seen_.child_ended = fresh_ = true;
+  changed_.notify_all();
+}
+
+void Events::job(const JobStatus& status) {
+  const std::lock_guard lock(mutex_);
+  seen_.job = status;
+  fresh_ = true;
+  changed_.notify_all();
+}
+
+void Events::lose(const Error& error) {
+  const std::lock_guard lock(mutex_);
+  seen_.lost = error;
+  fresh_ = true;
+  changed_.notify_all();
+}
+
+Events::Seen Events::wait(std::optional<std::chrono::steady_clock::time_point> deadline) {
+  std::unique_lock lock(mutex_);
+  bool in_time = true;
+  if (deadline) {
+    in_time = changed_.wait_until(lock, *deadline, [&] { return fresh_; });
+  } else {
+    changed_.wait(lock, [&] { return fresh_; });
+  }
+  Seen seen = seen_;
+  seen.timed_out = !in_time;
+  seen_.child_ended = false;
+  seen_.job.reset();
+  fresh_ = false;
+  return seen;
+}
+
+bool Events::interrupted() {
+  const std::lock_guard lock(mutex_);
+  return seen_.interrupted;
+}
+
+}  // namespace radfarm::cli

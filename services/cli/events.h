@@ -1,0 +1,40 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+#include "base/status.h"
+#include "rpc/messages.h"
+
+namespace radfarm::cli {
+
+/// What a waiting command learns from elsewhere: signals, children, the watched job. Thread-safe.
+class Events {
+ public:
+  struct Seen {
+    bool interrupted = false;       // SIGINT or SIGTERM came, ever
+    bool child_ended = false;       // some child ended since the last look
+    std::optional<JobStatus> job;   // the newest state since the last look
+    std::optional<Error> lost;      // the watch ended with an error
+    bool timed_out = false;
+  };
+
+  void interrupt();
+  void child_ended();
+  void job(const JobStatus& status);
+  void lose(const Error& error);
+
+  /// What happened since the last look; waits for something to happen, until `deadline`.
+  Seen wait(std::optional<std::chrono::steady_clock::time_point> deadline);
+  bool interrupted();
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Seen seen_;
+  bool fresh_ = false;
+};
+
+}  // namespace radfarm::cli

@@ -1,0 +1,51 @@
+#include "cli/follow.h"
+
+#include <thread>
+
+namespace radfarm::cli {
+namespace {
+
+/// Feeds a job's states into `events` from a thread of its own, while it lives.
+class Watch {
+ public:
+  Watch(FarmClient& client, const std::string& id, Events& events)
+      : client_(client), thread_([&client, id, &events] {
+          const Status ended = client.watch(id, [&](const JobStatus& status) { events.job(status); });
+          if (!ended) events.lose(ended.error());
+        }) {}
+  ~Watch() {
+    client_.stop_watching();
+    thread_.join();
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+ private:
+  FarmClient& client_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+Result<JobStatus> follow(FarmClient& client, const std::string& id, const FollowOptions& options, Events& events,
+                         Progress& progress) {
+  const Watch watch(client, id, events);
+  for (;;) {
+    const Events::Seen seen = events.wait(options.deadline);
+    if (seen.job) {
+      progress.show(*seen.job);
+      if (is_terminal(seen.job->state)) return *seen.job;
+    }
+    if (seen.interrupted) {
+      if (options.on_interrupt == FollowOptions::OnInterrupt::kCancelJob) (void)client.cancel(id);
+      return fail(Code::kCancelled, "cancelled");
+    }
+    if (seen.child_ended && options.check_children) RADFARM_TRY_STATUS(options.check_children());
+    if (seen.lost) return tl::unexpected(*seen.lost);
+    if (seen.timed_out) {
+      return fail(Code::kDeadlineExceeded, "job " + id + " has not finished in time; it goes on");
+    }
+  }
+}
+
+}  // namespace radfarm::cli

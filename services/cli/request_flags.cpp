@@ -1,0 +1,116 @@
+#include "cli/request_flags.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace radfarm::cli {
+namespace {
+
+tl::unexpected<Error> wrong(const std::string& flag, const std::string& value, const std::string& right) {
+  return fail(Code::kInvalidArgument, flag + ": '" + value + "' is wrong, " + right);
+}
+
+template <typename T>
+std::optional<T> parse_number(std::string_view text) {
+  T value{};
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+Result<Vec3d> parse_vector(const std::string& flag, const std::string& text) {
+  std::array<double, 3> numbers{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t comma = i < 2 ? rest.find(',') : rest.size();
+    const std::optional<double> number =
+        comma == std::string_view::npos ? std::nullopt : parse_number<double>(rest.substr(0, comma));
+    if (!number || !std::isfinite(*number)) return wrong(flag, text, "must be three numbers such as 1.5,0,-2");
+    numbers[i] = *number;
+    rest.remove_prefix(std::min(rest.size(), comma + 1));
+  }
+  return Vec3d(numbers[0], numbers[1], numbers[2]);
+}
+
+Status parse_size(const std::string& text, RenderRequest& request) {
+  const std::size_t x = text.find('x');
+  if (x != std::string::npos) {
+    request.width = parse_number<int>(std::string_view(text).substr(0, x));
+    request.height = parse_number<int>(std::string_view(text).substr(x + 1));
+  }
+  if (request.width && request.height) return {};
+  return wrong("--size", text, "must be WIDTHxHEIGHT in pixels, such as 640x480");
+}
+
+Status parse_camera(const RequestFlags& flags, RenderRequest& request) {
+  const bool placed = flags.eye || flags.look_at || flags.up_vector || flags.fov;
+  if (flags.camera && placed) return fail(Code::kInvalidArgument, "--camera and --eye exclude each other");
+  if (!placed) {
+    request.camera = RenderRequest::NamedCamera{flags.camera.value_or("")};
+    return {};
+  }
+  if (!flags.eye || !flags.look_at) return fail(Code::kInvalidArgument, "a placed camera needs --eye and --look-at");
+  RenderRequest::PlacedCamera camera;
+  RADFARM_TRY(camera.eye, parse_vector("--eye", *flags.eye));
+  RADFARM_TRY(camera.look_at, parse_vector("--look-at", *flags.look_at));
+  if (flags.up_vector) {
+    RADFARM_TRY(camera.up_vector, parse_vector("--up-vector", *flags.up_vector));
+  }
+  camera.vertical_fov_degrees = flags.fov.value_or(camera.vertical_fov_degrees);
+  request.camera = camera;
+  return {};
+}
+
+}  // namespace
+
+void add_request_flags(CLI::App& app, RequestFlags& flags) {
+  app.add_option("--camera", flags.camera, "NAME or INDEX of a camera in the scene; default: the first, else framed");
+  app.add_option("--eye", flags.eye, "X,Y,Z: where a camera of your own stands, metres");
+  app.add_option("--look-at", flags.look_at, "X,Y,Z: what it looks at");
+  app.add_option("--up-vector", flags.up_vector, "X,Y,Z: which way is up in the image; default 0,1,0");
+  app.add_option("--fov", flags.fov, "vertical field of view in degrees; default 45");
+  app.add_option("--size", flags.size, "WIDTHxHEIGHT in pixels; default 640 wide at the camera's aspect");
+  app.add_option("--up", flags.up, "Y or Z: which axis of an OBJ file points up");
+  app.add_option("--integrator", flags.integrator, "auto, gather, full-gather or path-trace");
+  app.add_option("--quality", flags.quality, "preview, standard, high or reference");
+  app.add_option("--samples", flags.samples, "camera samples a pixel; default from --quality");
+  app.add_option("--threshold", flags.threshold, "largest accepted change of radiance, cd/m^2; default from --quality");
+  app.add_option("--seed", flags.seed, "another seed, another independent image");
+  app.add_option("--tile", flags.tile, "pixels a side of a task; never changes the image");
+  app.add_flag("--no-audit", flags.no_audit, "do not measure the error");
+  app.add_option("--effects", flags.effects, "+id,-id: force effects on or off; see `radfarm explain`");
+  app.add_option("--gather", flags.gather, "default");
+  app.add_option("--criterion", flags.criterion, "uniform");
+  flags.unbuilt.add_to(app);
+}
+
+Result<RenderRequest> parse_request(const RequestFlags& flags) {
+  RADFARM_TRY_STATUS(flags.unbuilt.check());
+  RADFARM_TRY_STATUS(check_built("--integrator", flags.integrator));
+  RADFARM_TRY_STATUS(check_built("--gather", flags.gather));
+  RADFARM_TRY_STATUS(check_built("--criterion", flags.criterion));
+  RenderRequest request;
+  const auto integrator = integrator_from_string(flags.integrator);
+  if (!integrator) return annotate(integrator.error(), "--integrator");
+  request.integrator = *integrator;
+  const auto quality = quality_from_string(flags.quality);
+  if (!quality) return annotate(quality.error(), "--quality");
+  request.quality = *quality;
+  if (flags.up != "Y" && flags.up != "Z") return wrong("--up", flags.up, "must be Y or Z");
+  request.up = flags.up == "Z" ? RenderRequest::UpAxis::kZ : RenderRequest::UpAxis::kY;
+  RADFARM_TRY_STATUS(parse_camera(flags, request));
+  if (flags.size) RADFARM_TRY_STATUS(parse_size(*flags.size, request));
+  request.seed = flags.seed;
+  request.tile = flags.tile;
+  request.samples = flags.samples;
+  request.threshold = flags.threshold;
+  request.audit = !flags.no_audit;
+  request.effects = flags.effects;
+  RADFARM_TRY_STATUS(validate(request));
+  return request;
+}
+
+}  // namespace radfarm::cli

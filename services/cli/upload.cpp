@@ -1,0 +1,67 @@
+#include "cli/upload.h"
+
+#include <array>
+#include <cstdio>
+#include <random>
+#include <set>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "rpc/blob_client.h"
+#include "scene/scene_files.h"
+
+namespace radfarm::cli {
+namespace {
+
+struct LocalFile {
+  SceneFile file;
+  MappedFile contents;
+};
+
+Result<std::vector<LocalFile>> open_files(const std::filesystem::path& scene) {
+  RADFARM_TRY(const std::vector<std::filesystem::path> paths, scene_files(scene));
+  std::vector<LocalFile> files;
+  for (const std::filesystem::path& path : paths) {
+    RADFARM_TRY(MappedFile contents, MappedFile::open(scene.parent_path() / path));
+    files.push_back({{path.generic_string(), rpc::blob_ref(contents.bytes())}, std::move(contents)});
+  }
+  return files;
+}
+
+Status upload_missing(FarmClient& client, const std::vector<LocalFile>& files, Events& events) {
+  std::vector<std::string> digests;
+  for (const LocalFile& local : files) digests.push_back(local.file.blob.digest);
+  RADFARM_TRY(const std::vector<std::string> list, client.blobs().find_missing(digests));
+  std::set<std::string> missing(list.begin(), list.end());
+  for (const LocalFile& local : files) {
+    if (missing.erase(local.file.blob.digest) == 0) continue;
+    if (events.interrupted()) return fail(Code::kCancelled, "cancelled");
+    RADFARM_TRY_STATUS(client.blobs().upload(local.file.blob, local.contents.bytes()));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string new_request_id() {
+  std::random_device random;
+  std::array<char, 33> text{};
+  std::snprintf(text.data(), text.size(), "%08x%08x%08x%08x", random(), random(), random(), random());
+  return text.data();
+}
+
+Result<JobStatus> submit_scene(FarmClient& client, const std::filesystem::path& scene, const RenderRequest& request,
+                               Events& events) {
+  RADFARM_TRY(const std::vector<LocalFile> files, open_files(scene));
+  RADFARM_TRY_STATUS(upload_missing(client, files, events));
+  JobSpec spec;
+  spec.display_name = scene.filename().string().substr(0, 100);
+  for (const LocalFile& local : files) spec.files.push_back(local.file);
+  spec.entry_path = files.front().file.path;
+  spec.render_request_json = to_json(request).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return client.create(new_request_id(), spec);
+}
+
+}  // namespace radfarm::cli

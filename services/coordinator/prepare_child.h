@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/status.h"
+
+namespace radfarm {
+
+/// The child's side of a preparation: `radfarm-coordinator prepare-child` in a process of its own.
+
+inline constexpr const char* kSceneFile = "scene.bin";
+inline constexpr const char* kSolutionFile = "solution.bin";
+inline constexpr const char* kViewFile = "view.bin";
+inline constexpr int kOutOfMemoryExit = 9;
+
+struct PrepareChildOptions {
+  std::filesystem::path scene;
+  std::filesystem::path request;
+  std::filesystem::path out;
+  std::uint64_t memory_bytes = 0;  // 0: no limit
+  int parent_pid = 0;
+};
+
+/// Prepares and writes the three files into `out`. When it fails it prints one line of JSON {"code", "message"} on stdout.
+/// Returns the process's exit code.
+int run_prepare_child(const PrepareChildOptions& options);
+
+/// What the line says, or nothing when it is not such a line.
+std::optional<Error> parse_child_error(const std::string& line);
+
+}  // namespace radfarm

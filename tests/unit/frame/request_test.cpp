@@ -1,0 +1,130 @@
+#include "frame/request.h"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace radfarm {
+namespace {
+
+using Json = nlohmann::json;
+
+RenderRequest unusual_request() {
+  RenderRequest request;
+  request.integrator = RenderRequest::Integrator::kPathTrace;
+  request.quality = RenderRequest::Quality::kReference;
+  request.camera = RenderRequest::PlacedCamera{{0.1, 2, 3}, {4, 5, 1e-17}, {0, 0, 1}, 33.3};
+  request.width = 320;
+  request.height = 200;
+  request.up = RenderRequest::UpAxis::kZ;
+  request.seed = 18446744073709551615U;
+  request.tile = 7;
+  request.samples = 3;
+  request.threshold = 0.1F;
+  request.audit = false;
+  request.effects = std::string("+textures,-masking");
+  return request;
+}
+
+std::string message_of(const std::string& text) {
+  const Result<RenderRequest> request = render_request_from_json(Json::parse(text));
+  if (request) return "no error";
+  EXPECT_EQ(request.error().code, Code::kInvalidArgument);
+  return request.error().message;
+}
+
+TEST(RenderRequest, JsonRoundTripKeepsEverything) {
+  for (const RenderRequest& request : {RenderRequest(), unusual_request()}) {
+    const std::string text = to_json(request).dump();
+    EXPECT_EQ(render_request_from_json(Json::parse(text)).value(), request) << text;
+    EXPECT_EQ(render_request_from_json(to_json(request)).value(), request) << text;
+  }
+}
+
+TEST(RenderRequest, MissingKeysTakeTheirDefaults) {
+  EXPECT_EQ(render_request_from_json(Json::object()).value(), RenderRequest());
+  EXPECT_EQ(render_request_from_json(Json::parse(R"({"camera": {}})")).value(), RenderRequest());
+  const RenderRequest placed =
+      render_request_from_json(Json::parse(R"({"camera": {"eye": [1, 2, 3], "look_at": [0, 0, 0]}})")).value();
+  EXPECT_EQ(std::get<RenderRequest::PlacedCamera>(placed.camera).vertical_fov_degrees, 45);
+}
+
+TEST(RenderRequest, UnknownKeysAreNamed) {
+  EXPECT_THAT(message_of(R"({"sample": 3})"), testing::HasSubstr("'sample'"));
+  EXPECT_THAT(message_of(R"({"camera": {"fov": 3}})"), testing::HasSubstr("camera.fov"));
+}
+
+TEST(RenderRequest, WrongTypesNameTheKeyAndWhatWouldBeRight) {
+  EXPECT_THAT(message_of("[]"), testing::HasSubstr("object"));
+  EXPECT_THAT(message_of(R"({"width": "640"})"), testing::HasSubstr("width: must be a whole number"));
+  EXPECT_THAT(message_of(R"({"width": 640.5})"), testing::HasSubstr("width"));
+  EXPECT_THAT(message_of(R"({"width": 99999999999})"), testing::HasSubstr("width"));
+  EXPECT_THAT(message_of(R"({"width": null})"), testing::HasSubstr("width"));
+  EXPECT_THAT(message_of(R"({"seed": -1})"), testing::HasSubstr("seed"));
+  EXPECT_THAT(message_of(R"({"audit": 1})"), testing::HasSubstr("audit: must be true or false"));
+  EXPECT_THAT(message_of(R"({"threshold": 1e300})"), testing::HasSubstr("threshold"));
+  EXPECT_THAT(message_of(R"({"camera": "main"})"), testing::HasSubstr("camera"));
+  EXPECT_THAT(message_of(R"({"camera": {"eye": [1, 2], "look_at": [0, 0, 0]}})"), testing::HasSubstr("camera.eye"));
+  EXPECT_THAT(message_of(R"({"camera": {"eye": [1, 2, 3]}})"), testing::HasSubstr("look_at"));
+  EXPECT_THAT(message_of(R"({"camera": {"name": "a", "eye": [1, 2, 3]}})"), testing::HasSubstr("one of them"));
+  EXPECT_THAT(message_of(R"({"integrator": "magic"})"), testing::HasSubstr("path-trace"));
+  EXPECT_THAT(message_of(R"({"quality": "best"})"), testing::HasSubstr("reference"));
+  EXPECT_THAT(message_of(R"({"up": "X"})"), testing::HasSubstr("Y, Z"));
+}
+
+TEST(RenderRequest, NamesRoundTrip) {
+  for (const char* name : {"auto", "gather", "full-gather", "path-trace"}) {
+    EXPECT_EQ(to_string(integrator_from_string(name).value()), name);
+  }
+  for (const char* name : {"preview", "standard", "high", "reference"}) {
+    EXPECT_EQ(to_string(quality_from_string(name).value()), name);
+  }
+}
+
+TEST(RenderRequest, DefaultsAndUnusualValuesAreValid) {
+  EXPECT_TRUE(validate(RenderRequest()));
+  EXPECT_TRUE(validate(unusual_request()));
+}
+
+struct Invalid {
+  const char* flag;
+  void (*change)(RenderRequest& request);
+};
+
+TEST(RenderRequest, ValuesOutOfRangeNameTheirFlag) {
+  using Placed = RenderRequest::PlacedCamera;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Invalid> cases = {
+      {"--size", [](RenderRequest& r) { r.width = 0; }},
+      {"--size", [](RenderRequest& r) { r.height = 16385; }},
+      {"--tile", [](RenderRequest& r) { r.tile = 0; }},
+      {"--samples", [](RenderRequest& r) { r.samples = -1; }},
+      {"--threshold", [](RenderRequest& r) { r.threshold = 0.0F; }},
+      {"--threshold", [](RenderRequest& r) { r.threshold = std::numeric_limits<float>::quiet_NaN(); }},
+      {"--eye", [](RenderRequest& r) { r.camera = Placed{{kNan, 0, 0}, {1, 0, 0}}; }},
+      {"--look-at", [](RenderRequest& r) { r.camera = Placed{{1, 0, 0}, {1, 0, 0}}; }},
+      {"--up-vector", [](RenderRequest& r) { r.camera = Placed{{0, 0, 0}, {0, 2, 0}}; }},
+      {"--up-vector", [](RenderRequest& r) { r.camera = Placed{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}; }},
+      {"--fov", [](RenderRequest& r) { r.camera = Placed{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 180}; }},
+      {"--fov", [](RenderRequest& r) { r.camera = Placed{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, kNan}; }},
+      {"--camera", [](RenderRequest& r) { r.camera = RenderRequest::NamedCamera{std::string(5000, 'x')}; }},
+      {"--effects", [](RenderRequest& r) { r.effects = std::string("textures"); }},
+      {"--effects", [](RenderRequest& r) { r.effects = std::string("+"); }},
+      {"--effects", [](RenderRequest& r) { r.effects = std::string("+a,"); }},
+      {"--effects", [](RenderRequest& r) { r.effects = std::string("+a,,-b"); }},
+      {"--effects", [](RenderRequest& r) { r.effects = std::string("+a\n"); }},
+  };
+  for (const Invalid& invalid : cases) {
+    RenderRequest request;
+    invalid.change(request);
+    const Status status = validate(request);
+    ASSERT_FALSE(status) << invalid.flag << " " << request.effects;
+    EXPECT_EQ(status.error().code, Code::kInvalidArgument);
+    EXPECT_THAT(status.error().message, testing::StartsWith(invalid.flag));
+  }
+}
+
+}  // namespace
+}  // namespace radfarm
