@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "estimate/emitter_sampling.h"
 #include "math/sampling.h"
+#include "scene/emitter_sampling.h"
 
 namespace radfarm {
 namespace {
@@ -32,8 +32,8 @@ float weight_of_hit(const World& world, const Hit& hit, const Departure& from) {
 /// Light that reaches `point` from one sampled emitter and goes on along the path, times rho / pi and the cosine.
 Spectrum next_event(const World& world, const SurfacePoint& point, const Spectrum& rho, const PixelSampler& sampler,
                     std::uint32_t dimension, Counters& counters) {
-  const NextEvent event =
-      sample_emitter(world, point, sampler.one(dimension), sampler.two(dimension + 1), counters);
+  const NextEvent event = sample_emitter(world, point, sampler.one(dimension), sampler.two(dimension + 1));
+  counters.visibility_rays += event.traced ? 1 : 0;
   const float cosine = dot(point.shading_normal, event.direction);
   if (is_black(event.weight) || !(cosine > 0)) return {};
   const float other = cosine * kInversePi;

@@ -19,7 +19,7 @@ struct Settings {
   std::uint32_t camera_samples = 16;     // a pixel
   std::uint32_t audit_pixels = 0;        // 0: no audit
   std::uint32_t audit_samples = 0;       // paths of each of the two estimates of an audited pixel
-  std::uint32_t reserved = 0;
+  std::uint32_t has_interreflection = 1; // effect interreflection
   RadiositySettings radiosity;
   SenderSettings senders;
 };

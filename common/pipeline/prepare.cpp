@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -12,7 +13,9 @@
 #include "scene/load_scene.h"
 #include "scene/scene_file.h"
 #include "scene/summary.h"
+#include "radiosity/solve.h"
 #include "scene/world.h"
+#include "senders/sender_grid.h"
 
 namespace radfarm {
 namespace {
@@ -112,15 +115,63 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   return planned;
 }
 
+json energy_json(const EnergyLedger& energy) {
+  return {{"emitted", energy.emitted},
+          {"absorbed", energy.absorbed},
+          {"escaped", energy.escaped},
+          {"truncated", energy.truncated},
+          {"closure_error", energy.closure_error}};
+}
+
+/// The threshold when none is given: a share of the mean radiance of the lit scene.
+float default_threshold(const RadiositySolution& solution, float share) {
+  const double area = static_cast<double>(solution.hierarchy.nodes[0].area) / 2;
+  return share * static_cast<float>(luminance(SpectrumD(solution.reflected_power[0])) / (std::numbers::pi * area));
+}
+
+/// Radiosity, senders and grid of a view that gathers.
+void prepare_gather(Planned& planned, const RenderRequest& request, StageClock& clock, View& view,
+                    PreparedFiles& files) {
+  const World& world = *planned.world;
+  const RadiositySolution solution = solve_radiosity(world, planned.settings.radiosity, request.seed);
+  planned.facts["counts"]["links"] = solution.links;
+  planned.facts["counts"]["elements"] = solution.hierarchy.patches.size();
+  planned.facts["counts"]["radiosity_iterations"] = solution.iterations;
+  planned.facts["energy"] = energy_json(solution.energy);
+  const SenderTree tree = make_sender_tree(solution);
+  files.solution = encode(tree);
+  planned.facts["solution"] = {{"digest", sha256_hex(files.solution)}, {"reused", false}};
+  clock.end_stage("radiosity");
+
+  Settings& settings = view.settings;
+  settings.has_interreflection = planned.plan.is_active("interreflection") ? 1 : 0;
+  const bool is_full = request.integrator == RenderRequest::Integrator::kFullGather;
+  if (is_full) settings.senders.threshold = 0;
+  if (!is_full && !request.threshold && !solution.hierarchy.nodes.empty()) {
+    settings.senders.threshold = default_threshold(solution, threshold_share(request.quality));
+  }
+  const SenderGridFile grid = classify_visible(world, tree, view.camera, settings.width, settings.height,
+                                               settings.senders, settings.seed);
+  view.grid = encode(grid);
+  planned.facts["counts"]["grid_vertices"] = grid.grid.vertex_count();
+  planned.facts["counts"]["grid_vertices_used"] = grid.vertices.size();
+  clock.end_stage("senders");
+}
+
 }  // namespace
 
 Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request) {
   StageClock clock;
   RADFARM_TRY(Planned planned, plan(scene_file, request, clock));
   PreparedFiles files;
+  View view{planned.camera.camera, planned.settings, "", {}};
+  if (view.settings.integrator == Settings::Integrator::kGather) {
+    prepare_gather(planned, request, clock, view, files);
+  }
   planned.facts["stages"] = clock.stages();
   planned.facts["peak_memory_bytes"] = peak_memory_bytes();
-  files.view = encode(View{planned.camera.camera, planned.settings, planned.facts.dump(), {}});
+  view.facts = planned.facts.dump();
+  files.view = encode(view);
   files.scene = std::move(planned.scene_bytes);
   return files;
 }

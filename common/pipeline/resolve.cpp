@@ -23,13 +23,14 @@ struct QualityRow {
   std::uint32_t max_senders;
   std::uint32_t vertex_samples;
   float samples_per_gather;
+  float threshold_share;
 };
 
 constexpr QualityRow kQuality[] = {
-    {16, 4, 512, 32, 1e-3F, 16, 200, 600, 8},
-    {64, 16, 1024, 64, 3e-4F, 24, 400, 1200, 12},
-    {256, 64, 2048, 128, 1e-4F, 32, 800, 2400, 16},
-    {1024, 256, 4096, 256, 3e-5F, 48, 1600, 4800, 24},
+    {16, 4, 512, 32, 1e-3F, 16, 200, 600, 8, .02F},
+    {64, 16, 1024, 64, 2e-5F, 24, 400, 1200, 12, .01F},
+    {256, 64, 2048, 128, 1e-4F, 32, 800, 2400, 16, .005F},
+    {1024, 256, 4096, 256, 3e-5F, 48, 1600, 4800, 24, .002F},
 };
 
 void resolve_size(const RenderRequest& request, const Camera& camera, Settings& settings) {
@@ -53,6 +54,10 @@ Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& requ
   if (named.name_or_index.empty() && scene.cameras.empty()) return ChosenCamera{frame_scene(scene), true};
   RADFARM_TRY(const Camera camera, find_camera(scene, named.name_or_index.empty() ? "0" : named.name_or_index));
   return ChosenCamera{camera, false};
+}
+
+float threshold_share(RenderRequest::Quality quality) {
+  return kQuality[static_cast<std::size_t>(quality)].threshold_share;
 }
 
 Settings resolve_settings(const RenderRequest& request, const Camera& camera) {

@@ -18,4 +18,7 @@ Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& requ
 /// here and are set by prepare(). Pure.
 Settings resolve_settings(const RenderRequest& request, const Camera& camera);
 
+/// The default threshold as a share of the scene's mean radiance.
+float threshold_share(RenderRequest::Quality quality);
+
 }  // namespace radfarm

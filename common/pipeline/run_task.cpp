@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "estimate/gather.h"
 #include "estimate/path_reference.h"
 #include "estimate/task_result.h"
 #include "frame/tasks.h"
@@ -19,11 +20,20 @@ SampleRadiance path_integrator(const Prepared::Parts& parts) {
   };
 }
 
+SampleRadiance integrator(const Prepared::Parts& parts) {
+  if (!parts.senders) return path_integrator(parts);
+  const GatherContext context{parts.world, parts.tree, *parts.senders, parts.view.settings.senders,
+                              parts.has_interreflection};
+  return [context](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
+    return gather_radiance(context, ray, sampler, counters);
+  };
+}
+
 std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t index) {
   const Settings& settings = parts.view.settings;
   TileResult result;
   result.rect = tile_rect(settings, index);
-  result.pixels = render_tile(film_of(parts.view), result.rect, settings.camera_samples, path_integrator(parts),
+  result.pixels = render_tile(film_of(parts.view), result.rect, settings.camera_samples, integrator(parts),
                               result.counters);
   return encode(result);
 }
@@ -51,11 +61,20 @@ Prepared::Prepared(Prepared&&) noexcept = default;
 Prepared& Prepared::operator=(Prepared&&) noexcept = default;
 Prepared::~Prepared() = default;
 
-Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<const std::byte> /*solution*/,
+Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<const std::byte> solution,
                                 std::span<const std::byte> view) {
   RADFARM_TRY(View opened, decode_view(view));
   RADFARM_TRY(Scene decoded, decode_scene(scene));
-  return Prepared(std::make_unique<Parts>(std::move(opened), std::move(decoded)));
+  const Settings settings = opened.settings;
+  if (settings.integrator == Settings::Integrator::kPathTrace) {
+    return Prepared(std::make_unique<Parts>(std::move(opened), std::move(decoded), SenderTree()));
+  }
+  RADFARM_TRY(SenderTree tree, decode_sender_tree(solution));
+  RADFARM_TRY(SenderGridFile grid, decode_sender_grid(opened.grid, opened.camera, tree));
+  auto parts = std::make_unique<Parts>(std::move(opened), std::move(decoded), std::move(tree));
+  parts->senders.emplace(std::move(grid), parts->world, parts->tree, parts->view.settings.senders, settings.seed);
+  parts->has_interreflection = settings.has_interreflection != 0;
+  return Prepared(std::move(parts));
 }
 
 Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view) {

@@ -46,10 +46,6 @@ void average_material(const World& world, const Hit& corner, bool is_front, Patc
   patch.emission = Spectrum(emission / static_cast<double>(count));
 }
 
-float area_of(const TriangleVertices& v) {
-  return static_cast<float>(length(cross(to_double(v[1]) - to_double(v[0]), to_double(v[2]) - to_double(v[0]))) / 2);
-}
-
 Patch make_patch(const World& world, std::uint32_t instance, std::uint32_t triangle, bool is_front) {
   Patch patch;
   const Hit hit{instance, triangle, 1.0F / 3, 1.0F / 3, 0};
@@ -171,25 +167,51 @@ void build_tree(Hierarchy& hierarchy, std::vector<Item>& items) {
   }
 }
 
+/// The part of a patch that a random number chooses by what it reflects, down to an undivided one. Uses up `choice`.
+std::uint32_t choose_part(const Hierarchy& hierarchy, std::uint32_t id, double choice) {
+  while (hierarchy.nodes[id].child_count > 0 && id < hierarchy.reflected.size() && hierarchy.reflected[id] > 0) {
+    const Node& node = hierarchy.nodes[id];
+    std::uint32_t part = node.first_child;
+    if (part + node.child_count > hierarchy.reflected.size()) break;  // cut after the light was measured
+    double left = choice * static_cast<double>(hierarchy.reflected[id]);
+    while (part + 1 < node.first_child + node.child_count && left >= static_cast<double>(hierarchy.reflected[part])) {
+      left -= static_cast<double>(hierarchy.reflected[part++]);
+    }
+    const auto power = static_cast<double>(hierarchy.reflected[part]);
+    choice = power > 0 ? std::clamp(left / power, 0.0, 0x1.fffffffffffffp-1) : 0;
+    id = part;
+  }
+  return id;
+}
+
 }  // namespace
 
-Hierarchy build_hierarchy(const World& world) {
+float area_of(const TriangleVertices& v) {
+  return static_cast<float>(length(cross(to_double(v[1]) - to_double(v[0]), to_double(v[2]) - to_double(v[0]))) / 2);
+}
+
+Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const std::vector<bool>& is_reachable) {
   Hierarchy hierarchy;
-  std::vector<Hit> triangles;
+  struct Source {
+    std::uint32_t instance, triangle;
+    bool is_front;
+  };
+  std::vector<Source> sources;
   for (std::uint32_t i = 0; i < world.scene.instances.size(); ++i) {
     const std::size_t count = world.scene.meshes[world.scene.instances[i].mesh].triangles.size();
-    for (std::uint32_t t = 0; t < count; ++t) triangles.push_back({i, t, 0, 0, 0});
-  }
-  if (triangles.empty()) return hierarchy;
-  hierarchy.patches.resize(2 * triangles.size());
-  std::vector<Item> items(hierarchy.patches.size());
-  parallel_for(triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      for (const std::size_t side : {0, 1}) {
-        const std::size_t id = 2 * t + side;
-        hierarchy.patches[id] = make_patch(world, triangles[t].instance, triangles[t].triangle, side == 0);
-        items[id] = make_item(hierarchy.patches[id], static_cast<std::uint32_t>(id));
+    for (std::uint32_t t = 0; t < count; ++t) {
+      for (const bool is_front : {true, false}) {
+        if (is_reachable[sides.of(i, t, is_front)]) sources.push_back({i, t, is_front});
       }
+    }
+  }
+  if (sources.empty()) return hierarchy;
+  hierarchy.patches.resize(sources.size());
+  std::vector<Item> items(sources.size());
+  parallel_for(sources.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      hierarchy.patches[i] = make_patch(world, sources[i].instance, sources[i].triangle, sources[i].is_front);
+      items[i] = make_item(hierarchy.patches[i], static_cast<std::uint32_t>(i));
     }
   });
   build_tree(hierarchy, items);
@@ -231,16 +253,31 @@ std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node) {
   return first;
 }
 
+void set_reflected_power(Hierarchy& hierarchy, const std::vector<Spectrum>& power) {
+  hierarchy.reflection_before = {0};
+  for (const std::uint32_t leaf : hierarchy.leaves) {
+    hierarchy.reflection_before.push_back(hierarchy.reflection_before.back() + luminance(SpectrumD(power[leaf])));
+  }
+  hierarchy.reflected.clear();
+  for (const Spectrum& p : power) hierarchy.reflected.push_back(luminance(p));
+}
+
 NodeSample sample_node(const Hierarchy& hierarchy, const Node& node, SampleBy by, double choice, const Vec2& u) {
-  std::uint32_t id = node.patch;
+  std::uint32_t id = static_cast<std::uint32_t>(&node - hierarchy.nodes.data());
   if (node.is_cluster()) {
-    const std::vector<double>& before = by == SampleBy::kArea ? hierarchy.area_before : hierarchy.emission_before;
+    const std::vector<double>& before = by == SampleBy::kArea            ? hierarchy.area_before
+                                        : by == SampleBy::kEmittedPower ? hierarchy.emission_before
+                                                                        : hierarchy.reflection_before;
     const double low = before[node.first_leaf], high = before[node.first_leaf + node.leaf_count];
     const auto begin = before.begin() + node.first_leaf + 1, end = begin + node.leaf_count - 1;
     // The last leaf takes what rounding leaves over; leaves of weight 0 are never chosen.
     const auto leaf = std::upper_bound(begin, end, low + choice * (high - low)) - before.begin() - 1;
-    id = hierarchy.nodes[hierarchy.leaves[static_cast<std::size_t>(leaf)]].patch;
+    id = hierarchy.leaves[static_cast<std::size_t>(leaf)];
+    const double below = before[static_cast<std::size_t>(leaf)], above = before[static_cast<std::size_t>(leaf) + 1];
+    choice = above > below ? std::clamp((low + choice * (high - low) - below) / (above - below), 0.0, 1.0) : 0;
   }
+  if (by == SampleBy::kReflectedPower) id = choose_part(hierarchy, id, choice);
+  id = hierarchy.nodes[id].patch;
   const Patch& patch = hierarchy.patches[id];
   const Vec3 b = sample_uniform_triangle(u);
   const Vec3 position = patch.vertices[0] * b.x + patch.vertices[1] * b.y + patch.vertices[2] * b.z;

@@ -5,6 +5,7 @@
 
 #include "math/spectrum.h"
 #include "math/vec.h"
+#include "radiosity/reach.h"
 #include "scene/world.h"
 
 namespace radfarm {
@@ -21,6 +22,9 @@ struct Patch {
   std::uint32_t triangle = 0;
   std::uint32_t is_textured_emitter = 0;
 };
+
+/// m^2
+float area_of(const TriangleVertices& vertices);
 
 /// A cluster (children: two) or a patch (children: none, or four parts). Children have larger indices than their parent.
 struct Node {
@@ -47,15 +51,20 @@ struct Hierarchy {
   std::vector<std::uint32_t> leaves;        // nodes of whole triangle sides, in tree order
   std::vector<double> area_before;          // over leaves: area before each, and the total last
   std::vector<double> emission_before;      // over leaves: emitted luminous power before each, and the total last
+  std::vector<double> reflection_before;    // the same of reflected power, as last given to set_reflected_power()
+  std::vector<float> reflected;             // luminance of reflected power, one a node, given with it
 };
 
 /// Clusters group by place and orientation: a range is split at the median along its widest extent in (position, normal);
 /// patches large against their group are split off first, so that a wall never hides in a cluster of leaves.
-/// O(n log n), n = 2 x triangles. Deterministic.
-Hierarchy build_hierarchy(const World& world);
+/// Sides that no light reaches are left out. O(n log n) in the number of sides. Deterministic.
+Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const std::vector<bool>& is_reachable);
 
 /// Cuts a patch into four by its edges' midpoints; returns the first of the four new nodes. Requires: no children yet.
 std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node);
+
+/// Lets sample_node() choose by what the nodes reflect now; `power` is one a node, lm.
+void set_reflected_power(Hierarchy& hierarchy, const std::vector<Spectrum>& power);
 
 /// A random point of a node's surfaces.
 struct NodeSample {
@@ -65,9 +74,9 @@ struct NodeSample {
   std::uint32_t patch = 0;
   Vec3 leave() const { return position + normal * offset; }
 };
-enum class SampleBy { kArea, kEmittedPower };
-/// Uniform over the node's area, or over its area weighted by emitted luminance. `choice` picks the patch, `u` the point.
-/// Requires: kEmittedPower only on nodes that emit.
+enum class SampleBy { kArea, kEmittedPower, kReflectedPower };
+/// Uniform over the node's area, or over its area weighted by the luminance that its patches send. `choice` picks the
+/// patch, `u` the point. Requires: `node` is one of hierarchy.nodes; by power only on nodes that have it.
 NodeSample sample_node(const Hierarchy& hierarchy, const Node& node, SampleBy by, double choice, const Vec2& u);
 
 }  // namespace radfarm

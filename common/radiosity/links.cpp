@@ -80,18 +80,17 @@ void add_line(const World& world, Lines& lines, float kernel, float cosine, cons
   if (visible == 0 && lines.occluder == 0) lines.occluder = occluder_distance(world, from, to);
 }
 
-/// F(x, sender) per unit of sender power at one receiver point, 1/m^2.
-float kernel_at(const Hierarchy& hierarchy, const Node& sender, const NodeSample& x, const NodeSample& y) {
+/// F(x, patch) / A at one receiver point, 1/m^2: the exact mean of the kernel over the sampled patch, so that no distance,
+/// however small, makes it large.
+float kernel_at(const Hierarchy& hierarchy, const NodeSample& x, const NodeSample& y) {
   const Vec3 offset = y.position - x.position;
-  const float squared = dot(offset, offset);
-  const float cosine_x = dot(x.normal, offset), cosine_y = -dot(y.normal, offset);
-  if (!(cosine_x > 0 && cosine_y > 0 && squared > 0)) return 0;
-  if (!sender.is_cluster()) {
-    return fast_polygon_form_factor(hierarchy.patches[sender.patch].vertices, x.position, x.normal) / sender.area;
-  }
-  // No cluster sends a point more than all its power over its own area: bounds the kernel where elements touch.
-  return std::min(cosine_x * cosine_y / (kPi * squared * squared), 1 / sender.area);
+  if (!(dot(x.normal, offset) > 0 && dot(y.normal, offset) < 0)) return 0;
+  const Patch& patch = hierarchy.patches[y.patch];
+  return fast_polygon_form_factor(patch.vertices, x.position, x.normal) / area_of(patch.vertices);
 }
+
+/// A cluster's light to itself has no single direction: it counts as the mean irradiance of its surfaces, cosine included.
+bool needs_direction(const Node& receiver, const Node& sender) { return receiver.is_cluster() && &receiver != &sender; }
 
 Lines draw_lines(const World& world, const Hierarchy& hierarchy, const Node& receiver, const Node& sender, SampleBy by,
                  std::uint32_t samples, std::uint64_t key) {
@@ -103,23 +102,22 @@ Lines draw_lines(const World& world, const Hierarchy& hierarchy, const Node& rec
     const NodeSample y = sample_node(hierarchy, sender, by, static_cast<double>(sobol_owen_1d(i, combine(key, 3))),
                                      sobol_owen_2d(i, combine(key, 4)));
     const Vec3 to_sender = normalize(y.position - x.position);
-    add_line(world, lines, kernel_at(hierarchy, sender, x, y), dot(x.normal, to_sender), x.leave(), y.leave());
+    add_line(world, lines, kernel_at(hierarchy, x, y), dot(x.normal, to_sender), x.leave(), y.leave());
   }
   return lines;
 }
 
-/// Turns sums over lines into a transport factor: at normal incidence for clusters, cosine included for patches.
-float transport(const Lines& lines, bool receiver_is_cluster) {
-  if (!receiver_is_cluster) return static_cast<float>(lines.mean(lines.arrived));
+/// Turns sums over lines into a transport factor: at normal incidence, or with the receiver's cosine included.
+float transport(const Lines& lines, bool at_normal_incidence) {
+  if (!at_normal_incidence) return static_cast<float>(lines.mean(lines.arrived));
   return lines.cosine > 0 ? static_cast<float>(lines.arrived / lines.cosine) : 0;
 }
 
-void merge_geometry(const Lines& lines, bool receiver_is_cluster, Link& link) {
+void merge_geometry(const Lines& lines, Link& link) {
   if (lines.unoccluded > 0) {
     link.direction = to_float(normalize(lines.direction));
     link.visibility = static_cast<float>(lines.arrived / lines.unoccluded);
   }
-  if (receiver_is_cluster) link.receiver_cosine = static_cast<float>(lines.mean(lines.cosine));
   if (lines.occluder > 0) link.occluder_distance = lines.occluder;
 }
 
@@ -142,16 +140,16 @@ Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t
   link.sender = sender;
   link.evaluated = (has_emitted ? kEmittedPart : 0) | (has_reflected ? kReflectedPart : 0);
   if (has_reflected) {
-    const Lines lines = draw_lines(world, hierarchy, to, from, SampleBy::kArea, samples, combine(key, 1));
-    link.reflected = transport(lines, to.is_cluster());
+    const Lines lines = draw_lines(world, hierarchy, to, from, SampleBy::kReflectedPower, samples, combine(key, 1));
+    link.reflected = transport(lines, needs_direction(to, from));
     link.reflected_error = lines.error(typical);
-    merge_geometry(lines, to.is_cluster(), link);
+    merge_geometry(lines, link);
   }
   if (has_emitted) {
     const Lines lines = draw_lines(world, hierarchy, to, from, SampleBy::kEmittedPower, samples, combine(key, 2));
-    link.emitted = transport(lines, to.is_cluster());
+    link.emitted = transport(lines, needs_direction(to, from));
     link.emitted_error = lines.error(typical);
-    merge_geometry(lines, to.is_cluster(), link);
+    merge_geometry(lines, link);
   }
   return link;
 }
@@ -175,7 +173,7 @@ Link evaluate_punctual(const World& world, const Hierarchy& hierarchy, std::uint
   link.evaluated = kEmittedPart;
   link.emitted = transport(lines, to.is_cluster());
   link.emitted_error = lines.error(0);
-  merge_geometry(lines, to.is_cluster(), link);
+  merge_geometry(lines, link);
   return link;
 }
 

@@ -12,8 +12,11 @@ inline constexpr std::uint32_t kReflectedPart = 2;
 /// How light of one sender reaches one receiver: form factor and visibility apart, emitted and reflected light apart.
 ///
 /// A patch receiver gets the irradiance E = emitted * P_e + reflected * P_r from the sender's powers P (lm); a cluster
-/// receiver gets the same formula at normal incidence, and its patches their cosine to `direction`. (radiosity.3)
+/// receiver gets the same formula at normal incidence, and its patches their cosine to `direction`; a cluster's link to
+/// itself gives all its patches the mean irradiance. (radiosity.3)
 struct Link {
+  bool has_direction(const Node& receiver_node) const { return receiver_node.is_cluster() && receiver != sender; }
+
   std::uint32_t receiver = 0;
   std::uint32_t sender = 0;         // a node, or punctual_sender(light)
   Vec3 direction{0, 0, 0};          // unit, from receiver to sender
@@ -23,7 +26,6 @@ struct Link {
   float reflected_error = 0;
   float visibility = 1;             // mean over the samples
   float occluder_distance = 0;      // from the receiver to the closest occluder met, m; 0: none met
-  float receiver_cosine = 1;        // clusters: mean max(0, cos) of their surfaces; 1 for patches
   std::uint32_t evaluated = 0;      // parts of the sender's light it was evaluated for: kEmittedPart | kReflectedPart
 };
 

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/random.h"
 
 namespace radfarm {
 namespace {
+
+constexpr std::uint64_t kFinalKey = 0x66696e616c;  // "final"
 
 /// What one round of refinement works with.
 struct Round {
@@ -108,7 +111,7 @@ void split_link(const Round& round, const Link& link, Cut cut, std::vector<Link>
   }
 }
 
-/// A node's light to itself has no single direction: it is cut as long as its own light matters at all.
+/// A cluster's light to itself is cut as long as it matters at all: its oracle sees no directions.
 bool is_accepted(const Round& round, const Link& link) {
   if (link.receiver == link.sender) {
     const Node& node = round.hierarchy.nodes[link.receiver];
@@ -116,13 +119,6 @@ bool is_accepted(const Round& round, const Link& link) {
     return own * static_cast<double>(max_component(node.reflectance)) < round.max_error;
   }
   return misplaced_power(round, link) < round.max_error;
-}
-
-/// Certain for links whose every part was measured, or whose sender can never reflect.
-bool carries_nothing(const Round& round, const Link& link) {
-  const bool is_final = is_punctual(link.sender) || (link.evaluated & kReflectedPart) != 0 ||
-                        is_black(round.hierarchy.nodes[link.sender].reflectance);
-  return is_final && link.emitted == 0 && link.reflected == 0 && link.emitted_error == 0 && link.reflected_error == 0;
 }
 
 }  // namespace
@@ -143,13 +139,18 @@ std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflecte
   if (hierarchy.nodes.empty()) return 0;
   const Round round{world, hierarchy, reflected, settings, static_cast<double>(settings.max_link_error) * emitted_flux,
                     settings.min_patch_area * hierarchy.nodes[0].area, seed};
+  set_reflected_power(hierarchy, reflected);
+  // What a cluster sends where depends on which of its patches are lit: measured again with the light known now.
+  for (Link& link : links) {
+    if (!is_punctual(link.sender) && hierarchy.nodes[link.sender].is_cluster()) link.evaluated &= ~kReflectedPart;
+  }
   std::vector<Link> accepted, candidates = std::move(links), next;
   std::size_t splits = 0;
   while (!candidates.empty()) {
     parallel_for(candidates.size(), 256, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         Link& link = candidates[i];
-        if (link.receiver != link.sender && is_outdated(round, link)) link = evaluate(round, link);
+        if (is_outdated(round, link)) link = evaluate(round, link);
       }
     });
     next.clear();
@@ -159,7 +160,7 @@ std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflecte
       if (cut != Cut::kNone && has_room) {
         split_link(round, link, cut, next);
         ++splits;
-      } else if (!carries_nothing(round, link)) {
+      } else {
         accepted.push_back(link);
       }
     }
@@ -167,6 +168,16 @@ std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflecte
   }
   links = std::move(accepted);
   return splits;
+}
+
+void measure_again(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
+                   const RadiositySettings& settings, std::uint64_t seed) {
+  set_reflected_power(hierarchy, reflected);
+  const Round round{world, hierarchy, reflected, settings, 0, 0, combine(seed, kFinalKey)};
+  parallel_for(links.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) links[i] = evaluate(round, links[i]);
+  });
+  std::erase_if(links, [](const Link& link) { return link.emitted == 0 && link.reflected == 0; });
 }
 
 }  // namespace radfarm

@@ -17,9 +17,15 @@ std::vector<Link> initial_links(const World& world, const Hierarchy& hierarchy);
 /// `emitted_flux`, or its elements cannot be cut further, or max_links is reached.      docs/pipeline.md (radiosity.4)
 ///
 /// Level by level: all candidates of a level are evaluated in parallel, then accepted or split in order, so that the result
-/// does not depend on the number of threads. Links that carry nothing and never will are dropped.
+/// does not depend on the number of threads.
 /// Returns the number of links split.
 std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
                    const RadiositySettings& settings, double emitted_flux, std::uint64_t seed);
+
+/// Evaluates every link with fresh random lines, and drops those that carry nothing. Links were accepted because their
+/// samples varied little, so those samples are biased: a link whose lines happened to miss was kept, one whose lines hit
+/// was cut. Factors measured after the decision are unbiased.
+void measure_again(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
+                   const RadiositySettings& settings, std::uint64_t seed);
 
 }  // namespace radfarm

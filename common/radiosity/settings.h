@@ -11,7 +11,7 @@ struct RadiositySettings {
   float residual = 1e-3F;              // solve until an iteration changes the reflected power by less than this share
   std::uint32_t samples_per_link = 10; // random lines between the two elements of a link
   std::uint32_t max_links = 3'000'000;
-  std::uint32_t max_passes = 4;        // refine with the current radiosity, solve again
+  std::uint32_t max_passes = 3;        // refine with the current radiosity, solve again
 };
 
 }  // namespace radfarm

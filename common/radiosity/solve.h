@@ -11,8 +11,9 @@ namespace radfarm {
 struct EnergyLedger {
   double emitted = 0;
   double absorbed = 0;
-  double escaped = 0;        // left the scene, or was lost to the error of links
+  double escaped = 0;        // left the scene
   double truncated = 0;      // not yet reflected when the solve stopped
+  double closure_error = 0;  // share of the light that stays which the links missed before normalisation; signed
 };
 
 /// Diffuse interreflection of a scene, independent of any camera.
@@ -29,6 +30,8 @@ struct RadiositySolution {
 ///
 /// Solves B = pi L_e + rho E, E the irradiance gathered over links: refine with the light known so far, gather and pull until
 /// an iteration changes the reflected power by less than `residual`, and again with the new light until nothing is split.
+/// Factors are scaled so that all light arrives but the share that probe rays see escape, and no patch sends more than it
+/// has, so that the iteration converges whenever rho < 1; the raw error is in the ledger. (radiosity.6)
 /// Cost: links x samples_per_link rays, then O(links + leaves x depth) an iteration. Deterministic for any thread count.
 RadiositySolution solve_radiosity(const World& world, const RadiositySettings& settings, std::uint64_t seed);
 

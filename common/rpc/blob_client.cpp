@@ -31,9 +31,8 @@ Result<std::vector<std::string>> BlobClient::find_missing(const std::vector<std:
     }
     v1::FindMissingBlobsResponse response;
     RADFARM_TRY_STATUS(with_retries(policy_, [&] {
-      return call(std::chrono::seconds(30), [&](grpc::ClientContext& context) {
-        return stub_->FindMissingBlobs(&context, request, &response);
-      });
+      return call(std::chrono::seconds(30),
+                  [&](grpc::ClientContext& context) { return stub_->FindMissingBlobs(&context, request, &response); });
     }));
     missing.insert(missing.end(), response.missing_digests().begin(), response.missing_digests().end());
   }

@@ -14,8 +14,8 @@
 
 namespace radfarm::rpc {
 
-/// Blobs as a client sees it. Every call has a deadline (30 s and 1 s for each MiB), repeats on UNAVAILABLE, and verifies
-/// digests. Thread-safe.
+/// Blobs as a client sees it. Every call has a deadline (30 s and 1 s for each MiB), repeats on UNAVAILABLE, and
+/// verifies digests. Thread-safe.
 class BlobClient {
  public:
   explicit BlobClient(const std::shared_ptr<grpc::Channel>& channel, RetryPolicy policy = {});

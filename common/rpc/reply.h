@@ -9,9 +9,7 @@
 namespace radfarm::rpc {
 
 /// Code is numbered as gRPC's, so both mappings are casts.
-inline grpc::Status to_grpc(const Error& error) {
-  return {static_cast<grpc::StatusCode>(error.code), error.message};
-}
+inline grpc::Status to_grpc(const Error& error) { return {static_cast<grpc::StatusCode>(error.code), error.message}; }
 inline grpc::Status to_grpc(const Status& status) { return status ? grpc::Status::OK : to_grpc(status.error()); }
 
 inline Status from_grpc(const grpc::Status& status) {

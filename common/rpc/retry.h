@@ -18,12 +18,12 @@ struct RetryPolicy {
 /// Waits between attempts; returns false when the caller should stop trying (it is being shut down).
 using Pause = std::function<bool(std::chrono::milliseconds)>;
 
-/// The wait before attempt number `attempt` (1 is the first repetition): doubles from first_wait to longest_wait, and is
-/// scattered over its upper half by `random_bits` so that a thousand workers do not return in one moment.
+/// The wait before attempt number `attempt` (1 is the first repetition): doubles from first_wait to longest_wait, and
+/// is scattered over its upper half by `random_bits` so that a thousand workers do not return in one moment.
 std::chrono::milliseconds backoff(const RetryPolicy& policy, int attempt, std::uint64_t random_bits);
 
-/// Calls `call` until it answers anything but UNAVAILABLE, the policy gives up, or `pause` says to stop; the last answer.
-/// Requires: `call` may be repeated safely.
+/// Calls `call` until it answers anything but UNAVAILABLE, the policy gives up, or `pause` says to stop; the last
+/// answer. Requires: `call` may be repeated safely.
 Status with_retries(const RetryPolicy& policy, const Pause& pause, const std::function<Status()>& call);
 
 /// The same with a pause that just waits.

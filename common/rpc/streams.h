@@ -10,8 +10,8 @@
 
 namespace radfarm::rpc {
 
-/// A client-streaming handler's frame. `Sink` has `Status take(Request&&)` for each message and `Status finish()`, called
-/// once after the last; either's error ends the call at once. The one `delete this` of reading streams is here.
+/// A client-streaming handler's frame. `Sink` has `Status take(Request&&)` for each message and `Status finish()`,
+/// called once after the last; either's error ends the call at once. The one `delete this` of reading streams is here.
 template <typename Request, typename Sink>
 class ReadStream final : public grpc::ServerReadReactor<Request> {
  public:
@@ -30,8 +30,8 @@ class ReadStream final : public grpc::ServerReadReactor<Request> {
   Request message_;
 };
 
-/// A server-streaming handler's frame over a source that never waits: `Result<bool> next(Response&)` fills one message, or
-/// says false after the last.
+/// A server-streaming handler's frame over a source that never waits: `Result<bool> next(Response&)` fills one message,
+/// or says false after the last.
 template <typename Response, typename Source>
 class WriteStream final : public grpc::ServerWriteReactor<Response> {
  public:

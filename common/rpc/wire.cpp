@@ -75,7 +75,8 @@ Status check_relative_path(const std::string& path) {
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find('/', begin), path.size());
     const std::string part = path.substr(begin, end - begin);
-    if (part.empty() || part == "." || part == "..") return refuse("must be relative, without empty, '.' or '..' parts");
+    if (part.empty() || part == "." || part == "..")
+      return refuse("must be relative, without empty, '.' or '..' parts");
     begin = end + 1;
   }
   return {};
@@ -83,7 +84,8 @@ Status check_relative_path(const std::string& path) {
 
 Result<JobSpec> parse(const v1::RenderJobSpec& message) {
   RADFARM_TRY_STATUS(check_length(message.display_name(), 0, limits::kNameBytes, "spec.display_name"));
-  RADFARM_TRY_STATUS(check_length(message.render_request_json(), 2, limits::kRequestJsonBytes, "spec.render_request_json"));
+  RADFARM_TRY_STATUS(
+      check_length(message.render_request_json(), 2, limits::kRequestJsonBytes, "spec.render_request_json"));
   RADFARM_TRY(std::vector<SceneFile> files, parse_files(message.files()));
   const auto is_entry = [&](const SceneFile& file) { return file.path == message.entry_path(); };
   if (std::none_of(files.begin(), files.end(), is_entry)) return invalid("spec.entry_path", "is not one of spec.files");
@@ -106,11 +108,17 @@ Result<JobStatus> parse(const v1::RenderJob& message) {
   if (message.state() < v1::RenderJob::QUEUED || message.state() > v1::RenderJob::CANCELLED) {
     return invalid("job.state", "this client is older than the server and does not know it");
   }
-  JobStatus status{message.id(), message.display_name(), static_cast<JobState>(message.state()), message.revision(),
-                   message.create_time().seconds(), {}, {}, {}};
+  JobStatus status{message.id(),
+                   message.display_name(),
+                   static_cast<JobState>(message.state()),
+                   message.revision(),
+                   message.create_time().seconds(),
+                   {},
+                   {},
+                   {}};
   const v1::Progress& progress = message.progress();
-  status.progress = {progress.tasks_total(),      progress.tasks_committed(),  progress.tasks_leased(),
-                     progress.attempts_failed(),  progress.attempts_expired(), progress.results_diverged(),
+  status.progress = {progress.tasks_total(),     progress.tasks_committed(),  progress.tasks_leased(),
+                     progress.attempts_failed(), progress.attempts_expired(), progress.results_diverged(),
                      progress.waiting_for()};
   const v1::Failure& failure = message.failure();
   status.failure = {static_cast<JobFailure::Reason>(failure.reason()), {code_from(failure.code()), failure.message()}};
@@ -194,11 +202,17 @@ Result<CommitHeader> parse(const v1::CommitTaskRequest::Header& message) {
   RADFARM_TRY_STATUS(check_digest(message.digest(), "header.digest"));
   if (message.size() > limits::kResultBytes) {
     return fail(Code::kResourceExhausted, "header.size: " + std::to_string(message.size()) +
-                                              " bytes; a task's result may have " + std::to_string(limits::kResultBytes));
+                                              " bytes; a task's result may have " +
+                                              std::to_string(limits::kResultBytes));
   }
   const double cpu_seconds = message.cpu_seconds() >= 0 && message.cpu_seconds() < 1e9 ? message.cpu_seconds() : 0;
-  return CommitHeader{message.worker_id(), message.job_id(), message.slot(), message.token(),
-                      {message.digest(), message.size()}, cpu_seconds, message.peak_memory_bytes()};
+  return CommitHeader{message.worker_id(),
+                      message.job_id(),
+                      message.slot(),
+                      message.token(),
+                      {message.digest(), message.size()},
+                      cpu_seconds,
+                      message.peak_memory_bytes()};
 }
 
 void encode(const CommitHeader& header, v1::CommitTaskRequest::Header& message) {
@@ -216,7 +230,10 @@ Result<TaskFailure> parse(const v1::FailTaskRequest& message) {
   if (message.failure_class() < v1::FailTaskRequest::TASK || message.failure_class() > v1::FailTaskRequest::DATA) {
     return invalid("failure_class", "must be TASK, WORKER, PREEMPTED or DATA");
   }
-  return TaskFailure{message.worker_id(), message.job_id(), message.slot(), message.token(),
+  return TaskFailure{message.worker_id(),
+                     message.job_id(),
+                     message.slot(),
+                     message.token(),
                      static_cast<FailureClass>(message.failure_class()),
                      {code_from(message.code()), message.message().substr(0, 1000)}};
 }

@@ -9,8 +9,8 @@
 
 namespace radfarm::wire {
 
-/// Plain structs to protos and back. parse_* checks everything that can be checked without state and names the field that
-/// is wrong (INVALID_ARGUMENT); what it returns needs no more checking.
+/// Plain structs to protos and back. parse_* checks everything that can be checked without state and names the field
+/// that is wrong (INVALID_ARGUMENT); what it returns needs no more checking.
 
 Result<JobSpec> parse(const v1::RenderJobSpec& message);
 void encode(const JobSpec& spec, v1::RenderJobSpec& message);
@@ -30,8 +30,8 @@ void encode(const CommitHeader& header, v1::CommitTaskRequest::Header& message);
 Result<TaskFailure> parse(const v1::FailTaskRequest& message);
 void encode(const TaskFailure& failure, v1::FailTaskRequest& message);
 
-/// INVALID_ARGUMENT unless `path` may be created below a job's folder: relative, no "..", ".", empty parts, backslashes or
-/// control characters.
+/// INVALID_ARGUMENT unless `path` may be created below a job's folder: relative, no "..", ".", empty parts, backslashes
+/// or control characters.
 Status check_relative_path(const std::string& path);
 /// INVALID_ARGUMENT unless `digest` is 64 lower-case hexadecimal digits.
 Status check_digest(const std::string& digest, const std::string& field);

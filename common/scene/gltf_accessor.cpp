@@ -51,7 +51,8 @@ float component_value(const Elements& elements, std::size_t element, std::size_t
       const auto value = value_at<std::uint32_t>(base + 4 * component);
       return scaled ? normalized_value(value, 4294967295.0) : static_cast<float>(value);
     }
-    default: return value_at<float>(base + 4 * component);
+    default:
+      return value_at<float>(base + 4 * component);
   }
 }
 
@@ -82,9 +83,9 @@ std::size_t components_of(const tinygltf::Accessor& accessor) {
 Status put_sparse(const GltfModel& model, const tinygltf::Accessor& accessor, std::size_t components,
                   std::vector<float>& values) {
   const auto count = static_cast<std::size_t>(accessor.sparse.count);
-  const Elements indices =
-      elements_in(model, accessor.sparse.indices.bufferView, static_cast<std::size_t>(accessor.sparse.indices.byteOffset),
-                  accessor.sparse.indices.componentType, 1, count);
+  const Elements indices = elements_in(model, accessor.sparse.indices.bufferView,
+                                       static_cast<std::size_t>(accessor.sparse.indices.byteOffset),
+                                       accessor.sparse.indices.componentType, 1, count);
   Elements replaced =
       elements_in(model, accessor.sparse.values.bufferView, static_cast<std::size_t>(accessor.sparse.values.byteOffset),
                   accessor.componentType, components_of(accessor), count);

@@ -10,7 +10,8 @@ namespace radfarm {
 /// Proves of a glTF document what tinygltf takes on trust: every index exists, every view and accessor lies inside its
 /// buffer, nodes form trees of bounded depth, factors, cameras and lights are in range, required extensions are
 /// supported. An error is "JSON pointer: what is wrong". Does not look into buffers or images. Cost: O(JSON).
-/// Loads with faults that change nothing we compute (min/max, targets, undeclared extensions): over-refusal helps nobody.
+/// Loads with faults that change nothing we compute (min/max, targets, undeclared extensions): over-refusal helps
+/// nobody.
 Status check_gltf(const nlohmann::json& document);
 
 /// The two halves of it: asset, buffers to meshes; and materials, nodes to scenes.

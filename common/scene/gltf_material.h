@@ -21,9 +21,9 @@ struct GltfCoordinates {
 /// What Mesh::uv[0] and Mesh::uv[1] hold for meshes of one material.
 using GltfUvSlots = std::array<GltfCoordinates, 2>;
 
-/// Maps every material to a Lambertian one (docs/architecture.md, Materials), decodes the textures they use, and appends
-/// the default material (rho 1) for primitives that name none. Returns one entry a material: since a Mesh has one material,
-/// slot 0 serves its reflectance and slot 1 its emission where that differs, transforms baked in.
+/// Maps every material to a Lambertian one (docs/architecture.md, Materials), decodes the textures they use, and
+/// appends the default material (rho 1) for primitives that name none. Returns one entry a material: since a Mesh has
+/// one material, slot 0 serves its reflectance and slot 1 its emission where that differs, transforms baked in.
 Result<std::vector<GltfUvSlots>> read_gltf_materials(const GltfModel& model, Scene& scene);
 
 }  // namespace radfarm

@@ -56,7 +56,8 @@ Status map_document(nlohmann::json json, tinygltf::Model& document) {
     const std::string text = json.dump();
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks({nullptr, nullptr, nullptr, nullptr, nullptr});
-    if (loader.LoadASCIIFromString(&document, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "")) {
+    if (loader.LoadASCIIFromString(&document, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()),
+                                   "")) {
       return {};
     }
   } catch (const std::exception& exception) {

@@ -9,9 +9,9 @@
 
 namespace radfarm {
 
-/// Walks the default scene (else scene 0, else all root nodes) and adds what its nodes place: an instance per mesh part,
-/// cameras and punctual lights, all with world transforms in double.
-/// Requires: node trees as check_gltf() proves them. `mesh_parts` is what read_gltf_meshes returned.
+/// Walks the default scene (else scene 0, else all root nodes) and adds what its nodes place: an instance per mesh
+/// part, cameras and punctual lights, all with world transforms in double. Requires: node trees as check_gltf() proves
+/// them. `mesh_parts` is what read_gltf_meshes returned.
 Status read_gltf_nodes(const GltfModel& model, std::span<const std::vector<std::uint32_t>> mesh_parts,
                        DraftScene& draft);
 

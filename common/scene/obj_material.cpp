@@ -29,7 +29,8 @@ Result<std::vector<tinyobj::material_t>> parse_mtl(const std::string& text) {
   } catch (const std::exception& exception) {
     errors += exception.what();
   }
-  if (!errors.empty()) return fail(Code::kInvalidArgument, "is not an MTL file: " + errors.substr(0, errors.find('\n')));
+  if (!errors.empty())
+    return fail(Code::kInvalidArgument, "is not an MTL file: " + errors.substr(0, errors.find('\n')));
   // tinyobj begins with a nameless material when the file has none.
   std::erase_if(materials, [](const tinyobj::material_t& material) { return material.name.empty(); });
   return materials;
@@ -51,7 +52,8 @@ class LibraryReader {
   Status read(const std::string& name, ObjMaterials& materials) {
     RADFARM_TRY(const std::filesystem::path path, path_of_name(name));
     RADFARM_TRY(const std::string text, read_file(folder_ / path, limits::kSceneFileBytes));
-    if (text.find('\0') != std::string::npos) return fail(Code::kInvalidArgument, path.string() + ": is not plain text");
+    if (text.find('\0') != std::string::npos)
+      return fail(Code::kInvalidArgument, path.string() + ": is not plain text");
     const auto parsed = parse_mtl(text);
     if (!parsed) return annotate(parsed.error(), path.string());
     for (const tinyobj::material_t& source : *parsed) {
@@ -115,11 +117,13 @@ class LibraryReader {
     if (!texture) return annotate(texture.error(), key + " " + path.string());
     texture->is_srgb = is_srgb;
     texture->wrap_u = texture->wrap_v = options.clamp ? Texture::Wrap::kClamp : Texture::Wrap::kRepeat;
-    if (options.scale[0] != 1 || options.scale[1] != 1 || options.origin_offset[0] != 0 || options.origin_offset[1] != 0) {
+    if (options.scale[0] != 1 || options.scale[1] != 1 || options.origin_offset[0] != 0 ||
+        options.origin_offset[1] != 0) {
       add_note(scene_, "Texture offsets and scales of OBJ materials (-o, -s) are ignored.");
     }
     texels_ += texture->texels.size();
-    if (texels_ > limits::kTextureTexels) return fail(Code::kResourceExhausted, key + ": textures have too many pixels");
+    if (texels_ > limits::kTextureTexels)
+      return fail(Code::kResourceExhausted, key + ": textures have too many pixels");
     known->second = static_cast<std::uint32_t>(scene_.textures.size());
     scene_.textures.push_back(std::move(*texture));
     return known->second;

@@ -61,7 +61,8 @@ class Scanner {
 
   void out_of_range(std::size_t kind, const std::string& index) {
     static constexpr std::array<const char*, 3> kNames = {"vertex", "texture coordinate", "normal"};
-    fault(std::string(kNames[kind]) + " " + index + " does not exist (there are " + std::to_string(counts_[kind]) + ")");
+    fault(std::string(kNames[kind]) + " " + index + " does not exist (there are " + std::to_string(counts_[kind]) +
+          ")");
   }
 
   void vertex(std::string_view text) {

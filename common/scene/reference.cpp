@@ -42,8 +42,8 @@ Result<std::string> undo_percent_encoding(std::string_view uri) {
 /// The relative path, or why it may not be read.
 Result<std::filesystem::path> confined(const std::string& text) {
   const auto refused = [&](std::string_view why) {
-    return fail(Code::kInvalidArgument,
-                "file name " + in_quotes(text) + " " + std::string(why) + "; scenes may only name files in their own folder");
+    return fail(Code::kInvalidArgument, "file name " + in_quotes(text) + " " + std::string(why) +
+                                            "; scenes may only name files in their own folder");
   };
   if (text.empty()) return refused("is empty");
   if (text.find('\0') != std::string::npos) return refused("contains a zero byte");

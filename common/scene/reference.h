@@ -9,8 +9,8 @@
 
 namespace radfarm {
 
-/// What a scene file may refer to: files in its own folder or below, and data URIs. Everything else is refused, because a
-/// scene comes from a stranger and is read by a service.
+/// What a scene file may refer to: files in its own folder or below, and data URIs. Everything else is refused, because
+/// a scene comes from a stranger and is read by a service.
 
 /// The path, relative to the scene's folder, that a glTF URI names; percent-encoding is undone first.
 /// INVALID_ARGUMENT for schemes, absolute paths, and paths that leave the folder.

@@ -22,7 +22,9 @@ bool is_within(float value, float lowest, float highest) { return value >= lowes
 class Faults {
  public:
   void place(std::string_view array, std::size_t index, std::string_view name) {
-    if (ok()) place_ = std::string(array) + "[" + std::to_string(index) + "]" + (name.empty() ? "" : " '" + std::string(name) + "'");
+    if (ok())
+      place_ =
+          std::string(array) + "[" + std::to_string(index) + "]" + (name.empty() ? "" : " '" + std::string(name) + "'");
   }
   void require(bool condition, std::string_view what) {
     if (!condition && ok()) status_ = fail(Code::kInvalidArgument, place_ + ": " + std::string(what));
@@ -60,16 +62,16 @@ void check_mesh(const Mesh& mesh, std::size_t materials, Faults& faults) {
   const std::size_t vertices = mesh.positions.size();
   const auto fits = [&](std::size_t size) { return size == 0 || size == vertices; };
   faults.require(mesh.material < materials, "material does not exist");
-  faults.require(fits(mesh.normals.size()) && fits(mesh.uv[0].size()) && fits(mesh.uv[1].size()) &&
-                     fits(mesh.colors.size()),
-                 "an attribute has another length than the positions");
+  faults.require(
+      fits(mesh.normals.size()) && fits(mesh.uv[0].size()) && fits(mesh.uv[1].size()) && fits(mesh.colors.size()),
+      "an attribute has another length than the positions");
   faults.require(std::all_of(mesh.positions.begin(), mesh.positions.end(), is_place),
                  "a position is not finite or beyond 1e18");
   faults.require(std::all_of(mesh.normals.begin(), mesh.normals.end(), is_unit), "a normal is not of unit length");
   for (const std::vector<Vec2>& set : mesh.uv) {
-    faults.require(std::all_of(set.begin(), set.end(),
-                               [](const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }),
-                   "a texture coordinate is not finite");
+    faults.require(
+        std::all_of(set.begin(), set.end(), [](const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }),
+        "a texture coordinate is not finite");
   }
   for (const auto& color : mesh.colors) {
     faults.require(std::all_of(color.begin(), color.end(), [](float c) { return is_within(c, 0, 1); }),

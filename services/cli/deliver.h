@@ -19,13 +19,13 @@ struct Outputs {
 
 void add_output_flags(CLI::App& app, Outputs& outputs);
 
-/// INVALID_ARGUMENT when a name or the exposure cannot be; PERMISSION_DENIED or NOT_FOUND when a folder is not there, so
-/// that nobody learns it only after the render.
+/// INVALID_ARGUMENT when a name or the exposure cannot be; PERMISSION_DENIED or NOT_FOUND when a folder is not there,
+/// so that nobody learns it only after the render.
 Status check_usage(const Outputs& outputs);
 Status check_folders(const Outputs& outputs);
 
-/// Downloads the image and the report of a finished job, writes what is wanted, each file whole or not at all. Returns the
-/// report.
+/// Downloads the image and the report of a finished job, writes what is wanted, each file whole or not at all. Returns
+/// the report.
 Result<nlohmann::json> deliver(FarmClient& client, const JobStatus& job, const Outputs& outputs);
 
 /// The error that a job's end means, or nothing for SUCCEEDED.

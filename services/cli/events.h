@@ -14,10 +14,10 @@ namespace radfarm::cli {
 class Events {
  public:
   struct Seen {
-    bool interrupted = false;       // SIGINT or SIGTERM came, ever
-    bool child_ended = false;       // some child ended since the last look
-    std::optional<JobStatus> job;   // the newest state since the last look
-    std::optional<Error> lost;      // the watch ended with an error
+    bool interrupted = false;      // SIGINT or SIGTERM came, ever
+    bool child_ended = false;      // some child ended since the last look
+    std::optional<JobStatus> job;  // the newest state since the last look
+    std::optional<Error> lost;     // the watch ended with an error
     bool timed_out = false;
   };
 

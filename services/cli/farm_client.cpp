@@ -28,9 +28,8 @@ Result<JobStatus> FarmClient::create(const std::string& request_id, const JobSpe
   v1::RenderJob response;
   request.set_request_id(request_id);
   wire::encode(spec, *request.mutable_spec());
-  RADFARM_TRY_STATUS(repeat([&](grpc::ClientContext& context) {
-    return stub_->CreateRenderJob(&context, request, &response);
-  }));
+  RADFARM_TRY_STATUS(
+      repeat([&](grpc::ClientContext& context) { return stub_->CreateRenderJob(&context, request, &response); }));
   return wire::parse(response);
 }
 
@@ -38,9 +37,8 @@ Result<JobStatus> FarmClient::get(const std::string& id) {
   v1::GetRenderJobRequest request;
   v1::RenderJob response;
   request.set_id(id);
-  RADFARM_TRY_STATUS(repeat([&](grpc::ClientContext& context) {
-    return stub_->GetRenderJob(&context, request, &response);
-  }));
+  RADFARM_TRY_STATUS(
+      repeat([&](grpc::ClientContext& context) { return stub_->GetRenderJob(&context, request, &response); }));
   return wire::parse(response);
 }
 
@@ -49,9 +47,8 @@ Result<std::vector<JobStatus>> FarmClient::list() {
   v1::ListRenderJobsRequest request;
   do {
     v1::ListRenderJobsResponse response;
-    RADFARM_TRY_STATUS(repeat([&](grpc::ClientContext& context) {
-      return stub_->ListRenderJobs(&context, request, &response);
-    }));
+    RADFARM_TRY_STATUS(
+        repeat([&](grpc::ClientContext& context) { return stub_->ListRenderJobs(&context, request, &response); }));
     for (const v1::RenderJob& message : response.jobs()) {
       RADFARM_TRY(JobStatus status, wire::parse(message));
       jobs.push_back(std::move(status));
@@ -65,9 +62,8 @@ Result<JobStatus> FarmClient::cancel(const std::string& id) {
   v1::CancelRenderJobRequest request;
   v1::RenderJob response;
   request.set_id(id);
-  RADFARM_TRY_STATUS(repeat([&](grpc::ClientContext& context) {
-    return stub_->CancelRenderJob(&context, request, &response);
-  }));
+  RADFARM_TRY_STATUS(
+      repeat([&](grpc::ClientContext& context) { return stub_->CancelRenderJob(&context, request, &response); }));
   return wire::parse(response);
 }
 

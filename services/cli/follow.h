@@ -17,8 +17,8 @@ struct FollowOptions {
   std::function<Status()> check_children;  // asked when a child has ended; may be empty
 };
 
-/// Watches a job until it is terminal; the last state. CANCELLED when interrupted, DEADLINE_EXCEEDED after the deadline, or
-/// what check_children says.
+/// Watches a job until it is terminal; the last state. CANCELLED when interrupted, DEADLINE_EXCEEDED after the
+/// deadline, or what check_children says.
 Result<JobStatus> follow(FarmClient& client, const std::string& id, const FollowOptions& options, Events& events,
                          Progress& progress);
 

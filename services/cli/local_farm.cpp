@@ -83,7 +83,8 @@ Status LocalFarm::check() {
     if (!exit) return {};
     last = exit;
   }
-  return fail(Code::kInternal, "all workers have ended; the last one " + to_string(last.value_or(ChildProcess::Exit{})));
+  return fail(Code::kInternal,
+              "all workers have ended; the last one " + to_string(last.value_or(ChildProcess::Exit{})));
 }
 
 }  // namespace radfarm::cli

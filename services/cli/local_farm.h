@@ -10,8 +10,8 @@
 
 namespace radfarm::cli {
 
-/// A coordinator and workers as child processes of this one, on loopback ports that the system chooses, with a data folder
-/// that goes away with them. However this process ends, none of them outlives it.
+/// A coordinator and workers as child processes of this one, on loopback ports that the system chooses, with a data
+/// folder that goes away with them. However this process ends, none of them outlives it.
 class LocalFarm {
  public:
   struct Options {

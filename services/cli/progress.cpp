@@ -12,14 +12,22 @@ constexpr int kBarWidth = 30;
 
 std::string verb(JobState state) {
   switch (state) {
-    case JobState::kQueued: return "queued";
-    case JobState::kPreparing: return "preparing";
-    case JobState::kRendering: return "rendering";
-    case JobState::kAssembling: return "assembling";
-    case JobState::kSucceeded: return "done";
-    case JobState::kFailed: return "failed";
-    case JobState::kCancelling: return "cancelling";
-    case JobState::kCancelled: return "cancelled";
+    case JobState::kQueued:
+      return "queued";
+    case JobState::kPreparing:
+      return "preparing";
+    case JobState::kRendering:
+      return "rendering";
+    case JobState::kAssembling:
+      return "assembling";
+    case JobState::kSucceeded:
+      return "done";
+    case JobState::kFailed:
+      return "failed";
+    case JobState::kCancelling:
+      return "cancelling";
+    case JobState::kCancelled:
+      return "cancelled";
   }
   return "";
 }
@@ -38,8 +46,8 @@ std::string progress_line(const JobStatus& status, double seconds) {
     return line.data();
   }
   const int full = static_cast<int>(share(progress) * kBarWidth);
-  const std::string bar = std::string(static_cast<std::size_t>(full), '#') +
-                          std::string(static_cast<std::size_t>(kBarWidth - full), '-');
+  const std::string bar =
+      std::string(static_cast<std::size_t>(full), '#') + std::string(static_cast<std::size_t>(kBarWidth - full), '-');
   std::snprintf(line.data(), line.size(), "%-10s [%s] %u/%u tasks  %.1f s", verb(status.state).c_str(), bar.c_str(),
                 progress.tasks_committed, progress.tasks_total, seconds);
   return line.data();
@@ -67,8 +75,8 @@ void Progress::show(const JobStatus& status) {
   if (state_ == status.state && tenths_ == tenths) return;
   state_ = status.state;
   tenths_ = tenths;
-  std::fprintf(stderr, "%s%s%s\n", line.c_str(), status.progress.waiting_for.empty() ? "" : "  waiting: ",
-               status.progress.waiting_for.c_str());
+  std::fprintf(stderr, "%s%s%s\n", line.c_str(),
+               status.progress.waiting_for.empty() ? "" : "  waiting: ", status.progress.waiting_for.c_str());
 }
 
 }  // namespace radfarm::cli

@@ -8,7 +8,8 @@
 
 namespace radfarm::cli {
 
-/// Shows how a job goes on stderr: one line that is redrawn on a terminal, else a line for each new state and each tenth.
+/// Shows how a job goes on stderr: one line that is redrawn on a terminal, else a line for each new state and each
+/// tenth.
 class Progress {
  public:
   enum class Style { kBar, kLines };

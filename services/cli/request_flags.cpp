@@ -94,10 +94,10 @@ Result<RenderRequest> parse_request(const RequestFlags& flags) {
   RADFARM_TRY_STATUS(check_built("--criterion", flags.criterion));
   RenderRequest request;
   const auto integrator = integrator_from_string(flags.integrator);
-  if (!integrator) return annotate(integrator.error(), "--integrator");
+  if (!integrator) return fail(Code::kInvalidArgument, "--" + integrator.error().message);
   request.integrator = *integrator;
   const auto quality = quality_from_string(flags.quality);
-  if (!quality) return annotate(quality.error(), "--quality");
+  if (!quality) return fail(Code::kInvalidArgument, "--" + quality.error().message);
   request.quality = *quality;
   if (flags.up != "Y" && flags.up != "Z") return wrong("--up", flags.up, "must be Y or Z");
   request.up = flags.up == "Z" ? RenderRequest::UpAxis::kZ : RenderRequest::UpAxis::kY;

@@ -10,8 +10,8 @@
 
 namespace radfarm::cli {
 
-/// Flags of the contract (DESIGN section 9) whose feature does not exist yet. They are known, so that giving one is answered
-/// with what works today and never silently ignored.
+/// Flags of the contract (DESIGN section 9) whose feature does not exist yet. They are known, so that giving one is
+/// answered with what works today and never silently ignored.
 class UnbuiltFlags {
  public:
   void add_to(CLI::App& app);

@@ -14,8 +14,8 @@
 
 namespace radfarm {
 
-/// Blobs in a folder, one file each under the first two digits of its digest. A file appears whole or not at all, and only
-/// under the digest of its bytes. Thread-safe, and safe for several processes on one folder.
+/// Blobs in a folder, one file each under the first two digits of its digest. A file appears whole or not at all, and
+/// only under the digest of its bytes. Thread-safe, and safe for several processes on one folder.
 class BlobStore {
  public:
   /// Makes the folder when needed and removes what interrupted uploads left behind.

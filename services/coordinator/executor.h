@@ -9,8 +9,8 @@
 
 namespace radfarm {
 
-/// A few threads for the long steps of jobs, so that no RPC thread ever waits. Work queued before the end of this object
-/// may be dropped; work that runs is waited for.
+/// A few threads for the long steps of jobs, so that no RPC thread ever waits. Work queued before the end of this
+/// object may be dropped; work that runs is waited for.
 class Executor {
  public:
   explicit Executor(int threads);

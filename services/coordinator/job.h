@@ -27,12 +27,12 @@ class Job {
   Job(std::string id, JobSpec spec, std::int64_t created_unix_seconds, LeasePolicy policy);
 
   // What the scheduler reports. Requires: the state on the left of the arrow.
-  void start_preparing();                                      // QUEUED -> PREPARING
+  void start_preparing();                                            // QUEUED -> PREPARING
   void start_rendering(TaskInputs inputs, std::vector<Task> tasks);  // PREPARING -> RENDERING, or a job without tasks
-  void start_assembling();                                     // RENDERING, all committed -> ASSEMBLING
-  void succeed(std::vector<Artifact> artifacts);               // ASSEMBLING -> SUCCEEDED
-  void fail(JobFailure failure);                               // not terminal -> FAILED
-  void confirm_cancel();                                       // CANCELLING -> CANCELLED
+  void start_assembling();                                           // RENDERING, all committed -> ASSEMBLING
+  void succeed(std::vector<Artifact> artifacts);                     // ASSEMBLING -> SUCCEEDED
+  void fail(JobFailure failure);                                     // not terminal -> FAILED
+  void confirm_cancel();                                             // CANCELLING -> CANCELLED
 
   /// FAILED_PRECONDITION when the job has succeeded or failed.
   Status cancel();

@@ -20,7 +20,8 @@ struct LeasePolicy {
   int losses = 10;        // attempts of one task whose worker fell silent that fail the job
 };
 
-/// Who runs which task of one job. A plain state machine: the caller holds the lock, passes the time and random tokens in.
+/// Who runs which task of one job. A plain state machine: the caller holds the lock, passes the time and random tokens
+/// in.
 ///
 ///     waiting --lease--> leased --commit--> committed
 ///        ^                 |
@@ -41,13 +42,14 @@ class Leases {
 
   Leases(std::uint32_t tasks, LeasePolicy policy);
 
-  /// The lowest waiting task that `worker` may run, now leased to it under `token`. A task that failed on this worker is
-  /// its only once it has failed on all of `live` too.
+  /// The lowest waiting task that `worker` may run, now leased to it under `token`. A task that failed on this worker
+  /// is its only once it has failed on all of `live` too.
   std::optional<Grant> lease(const std::string& worker, const std::set<std::string>& live, const std::string& token,
                              Time now);
   /// False when `token` is not current, and so its lease is lost.
   bool renew(const std::string& token, Time now);
-  /// Only the current token changes anything. The result that a committed task already has is a duplicate, whoever sends it.
+  /// Only the current token changes anything. The result that a committed task already has is a duplicate, whoever
+  /// sends it.
   CommitOutcome commit(std::uint32_t slot, const std::string& token, const std::string& digest);
   /// Puts the task back; a stale token changes nothing and gives false.
   bool fail(std::uint32_t slot, const std::string& token, FailureClass failure_class, const Error& error);

@@ -24,8 +24,8 @@ struct PrepareChildOptions {
   int parent_pid = 0;
 };
 
-/// Prepares and writes the three files into `out`. When it fails it prints one line of JSON {"code", "message"} on stdout.
-/// Returns the process's exit code.
+/// Prepares and writes the three files into `out`. When it fails it prints one line of JSON {"code", "message"} on
+/// stdout. Returns the process's exit code.
 int run_prepare_child(const PrepareChildOptions& options);
 
 /// What the line says, or nothing when it is not such a line.

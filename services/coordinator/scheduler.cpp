@@ -143,8 +143,7 @@ void Scheduler::unwatch(const std::string& id, WatchId watch) {
 }
 
 Result<Scheduler::Entry*> Scheduler::find(const std::string& id) {
-  const auto found =
-      std::find_if(jobs_.begin(), jobs_.end(), [&](const auto& entry) { return entry->job.id() == id; });
+  const auto found = std::find_if(jobs_.begin(), jobs_.end(), [&](const auto& entry) { return entry->job.id() == id; });
   if (found == jobs_.end()) return fail(Code::kNotFound, "there is no job " + id.substr(0, 100));
   return found->get();
 }

@@ -23,14 +23,14 @@ struct SchedulerOptions {
   LeasePolicy leases;
   Workers::Policy workers;
   PrepareOptions prepare;
-  int stage_threads = 2;            // jobs prepared or assembled at once
+  int stage_threads = 2;               // jobs prepared or assembled at once
   std::size_t unfinished_jobs = 1000;  // more are refused
   std::size_t finished_jobs = 10000;   // older ones are forgotten
 };
 
-/// All jobs and workers of a coordinator under one mutex. It decides nothing itself: Job, Leases and Workers do; it brings
-/// them time, random tokens and threads. Thread-safe. Callbacks run under the mutex: they must be quick and must not call
-/// back. Threads: the executor's for long steps and one that wakes at the next deadline.
+/// All jobs and workers of a coordinator under one mutex. It decides nothing itself: Job, Leases and Workers do; it
+/// brings them time, random tokens and threads. Thread-safe. Callbacks run under the mutex: they must be quick and must
+/// not call back. Threads: the executor's for long steps and one that wakes at the next deadline.
 class Scheduler {
  public:
   Scheduler(const BlobStore& blobs, SchedulerOptions options);
@@ -65,7 +65,7 @@ class Scheduler {
     std::string worker_id;
     std::uint32_t max_tasks = 1;
     std::chrono::milliseconds wait{0};
-    std::function<bool()> is_cancelled;                          // the caller has gone: give it nothing
+    std::function<bool()> is_cancelled;                             // the caller has gone: give it nothing
     std::function<void(const Result<std::vector<Lease>>&)> answer;  // called exactly once
   };
   void lease(LeaseWait wait);

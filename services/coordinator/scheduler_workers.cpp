@@ -96,8 +96,8 @@ Result<std::vector<std::string>> Scheduler::renew(const std::string& worker_id,
   RADFARM_TRY([[maybe_unused]] const Workers::Worker* const worker, workers_.touch(worker_id, time));
   std::vector<std::string> lost;
   for (const std::string& token : tokens) {
-    const bool renewed = std::any_of(jobs_.begin(), jobs_.end(),
-                                     [&](const auto& entry) { return entry->job.renew(token, time); });
+    const bool renewed =
+        std::any_of(jobs_.begin(), jobs_.end(), [&](const auto& entry) { return entry->job.renew(token, time); });
     if (!renewed) lost.push_back(token);
   }
   return lost;

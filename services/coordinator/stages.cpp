@@ -97,18 +97,26 @@ tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const Blo
   const fs::path& folder = scratch->path();
   const fs::path scene = folder / "scene";
   if (const Status laid = lay_out(spec, blobs, scene); !laid) return broken(Reason::kSceneInvalid, laid.error());
-  const std::vector<std::string> arguments = {
-      "prepare-child", "--scene",   (scene / spec.entry_path).string(), "--request", (folder / "request.json").string(),
-      "--out",         folder.string(), "--memory-bytes", std::to_string(options.memory_bytes),
-      "--parent-pid",  std::to_string(::getpid())};
+  const std::vector<std::string> arguments = {"prepare-child",
+                                              "--scene",
+                                              (scene / spec.entry_path).string(),
+                                              "--request",
+                                              (folder / "request.json").string(),
+                                              "--out",
+                                              folder.string(),
+                                              "--memory-bytes",
+                                              std::to_string(options.memory_bytes),
+                                              "--parent-pid",
+                                              std::to_string(::getpid())};
   Result<ChildProcess> child = ChildProcess::start(options.program, arguments, ChildProcess::Stdout::kCapture);
   if (!child) return broken(Reason::kInternal, child.error());
 
   const std::stop_callback kill(stop, [&] { child->signal(SIGKILL); });
   const std::optional<ChildProcess::Exit> exit = child->wait(options.time_limit);
   if (!exit) {
-    return broken(Reason::kPrepareDied, {Code::kDeadlineExceeded, "preparing the scene took longer than " +
-                                             std::to_string(options.time_limit.count()) + " s (--prepare-seconds)"});
+    return broken(Reason::kPrepareDied,
+                  {Code::kDeadlineExceeded, "preparing the scene took longer than " +
+                                                std::to_string(options.time_limit.count()) + " s (--prepare-seconds)"});
   }
   if (*exit != ChildProcess::Exit{false, 0}) return failure_of(*child, *exit);
   Result<PreparedJob> job = collect(folder, blobs);

@@ -16,10 +16,10 @@ namespace radfarm {
 /// The long steps of a job, run by the executor and free of the scheduler's state.
 
 struct PrepareOptions {
-  std::filesystem::path program;        // radfarm-coordinator, which runs itself as `prepare-child`
-  std::filesystem::path scratch;        // job folders are made and removed here
+  std::filesystem::path program;  // radfarm-coordinator, which runs itself as `prepare-child`
+  std::filesystem::path scratch;  // job folders are made and removed here
   std::chrono::seconds time_limit{3600};
-  std::uint64_t memory_bytes = 0;       // address space of the child; 0: no limit
+  std::uint64_t memory_bytes = 0;  // address space of the child; 0: no limit
 };
 
 struct PreparedJob {
@@ -27,8 +27,8 @@ struct PreparedJob {
   std::vector<Task> tasks;
 };
 
-/// Lays the scene out in a folder of its own and prepares it in a child process, so that a hostile or enormous scene fails
-/// its own job and nothing else. `stop` kills the child.
+/// Lays the scene out in a folder of its own and prepares it in a child process, so that a hostile or enormous scene
+/// fails its own job and nothing else. `stop` kills the child.
 tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const BlobStore& blobs,
                                                   const PrepareOptions& options, const std::stop_token& stop);
 

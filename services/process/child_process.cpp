@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/pidfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
+extern "C" {  // glibc 2.36 forgets to say so
+#include <sys/pidfd.h>
+}
 
 #include <algorithm>
 #include <array>
@@ -80,8 +82,8 @@ Result<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
     return fail(Code::kResourceExhausted, std::string("cannot make a pipe: ") + std::strerror(errno));
   }
   int pid = -1;
-  const int error = SpawnSettings(output == Stdout::kCapture ? pipe[1] : STDERR_FILENO)
-                        .spawn(pid, program.string(), pointers.data());
+  const int error =
+      SpawnSettings(output == Stdout::kCapture ? pipe[1] : STDERR_FILENO).spawn(pid, program.string(), pointers.data());
   if (pipe[1] >= 0) ::close(pipe[1]);
   if (error != 0) {
     if (pipe[0] >= 0) ::close(pipe[0]);

@@ -33,8 +33,8 @@ class ChildProcess {
   void signal(int number) const;
   /// How it ended, or nothing when it still runs after `limit`.
   std::optional<Exit> wait(std::chrono::milliseconds limit);
-  /// What it prints, up to the first line break, its end, `limit` or 64 KiB. DEADLINE_EXCEEDED, or UNAVAILABLE when stdout
-  /// closed before a whole line came. Requires: Stdout::kCapture.
+  /// What it prints, up to the first line break, its end, `limit` or 64 KiB. DEADLINE_EXCEEDED, or UNAVAILABLE when
+  /// stdout closed before a whole line came. Requires: Stdout::kCapture.
   Result<std::string> read_line(std::chrono::milliseconds limit);
 
  private:

@@ -8,8 +8,8 @@
 
 namespace radfarm {
 
-/// Keeps `signals` for a SignalWatcher, and turns SIGPIPE into error values. Called by main before any other thread starts
-/// (gRPC starts some), so that all threads inherit it; a signal that comes before the watcher waits for it.
+/// Keeps `signals` for a SignalWatcher, and turns SIGPIPE into error values. Called by main before any other thread
+/// starts (gRPC starts some), so that all threads inherit it; a signal that comes before the watcher waits for it.
 void block_signals(std::initializer_list<int> signals);
 
 /// Calls `handler(signal)` on a thread of its own each time one of `signals` arrives, while it lives.

@@ -19,9 +19,8 @@ Result<WorkerWelcome> CoordinatorClient::register_worker(const WorkerHello& hell
   v1::RegisterWorkerRequest request;
   v1::RegisterWorkerResponse response;
   wire::encode(hello, request);
-  RADFARM_TRY_STATUS(rpc::call(kDeadline, [&](grpc::ClientContext& context) {
-    return stub_->RegisterWorker(&context, request, &response);
-  }));
+  RADFARM_TRY_STATUS(rpc::call(
+      kDeadline, [&](grpc::ClientContext& context) { return stub_->RegisterWorker(&context, request, &response); }));
   return WorkerWelcome{response.worker_id(), std::chrono::milliseconds(response.lease_ms())};
 }
 
@@ -64,9 +63,8 @@ Result<std::vector<std::string>> CoordinatorClient::renew(const std::string& wor
   v1::RenewLeasesResponse response;
   request.set_worker_id(worker_id);
   for (const std::string& token : tokens) request.add_tokens(token);
-  RADFARM_TRY_STATUS(rpc::call(kDeadline, [&](grpc::ClientContext& context) {
-    return stub_->RenewLeases(&context, request, &response);
-  }));
+  RADFARM_TRY_STATUS(rpc::call(
+      kDeadline, [&](grpc::ClientContext& context) { return stub_->RenewLeases(&context, request, &response); }));
   return std::vector<std::string>(response.lost_tokens().begin(), response.lost_tokens().end());
 }
 
@@ -85,18 +83,16 @@ Status CoordinatorClient::fail_task(const TaskFailure& failure) {
   v1::FailTaskRequest request;
   v1::FailTaskResponse response;
   wire::encode(failure, request);
-  return rpc::call(kDeadline, [&](grpc::ClientContext& context) {
-    return stub_->FailTask(&context, request, &response);
-  });
+  return rpc::call(kDeadline,
+                   [&](grpc::ClientContext& context) { return stub_->FailTask(&context, request, &response); });
 }
 
 Status CoordinatorClient::unregister_worker(const std::string& worker_id) {
   v1::UnregisterWorkerRequest request;
   v1::UnregisterWorkerResponse response;
   request.set_worker_id(worker_id);
-  return rpc::call(std::chrono::seconds(2), [&](grpc::ClientContext& context) {
-    return stub_->UnregisterWorker(&context, request, &response);
-  });
+  return rpc::call(std::chrono::seconds(2),
+                   [&](grpc::ClientContext& context) { return stub_->UnregisterWorker(&context, request, &response); });
 }
 
 }  // namespace radfarm

@@ -5,8 +5,10 @@
 #include <array>
 #include <csignal>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -38,9 +40,12 @@ std::string default_name() {
 
 Status work(Flags flags) {
   RADFARM_TRY_STATUS(rpc::check_address(flags.worker.coordinator, "--coordinator"));
-  RADFARM_TRY(const TemporaryDirectory own_cache, TemporaryDirectory::create("radfarm-worker"));
-  const std::filesystem::path folder = flags.worker.cache.empty() ? own_cache.path() : flags.worker.cache;
-  RADFARM_TRY(const BlobStore cache, BlobStore::open(folder, limits::kBlobBytes));
+  std::optional<TemporaryDirectory> own_cache;
+  if (flags.worker.cache.empty()) {
+    RADFARM_TRY(TemporaryDirectory folder, TemporaryDirectory::create("radfarm-worker"));
+    flags.worker.cache = own_cache.emplace(std::move(folder)).path();
+  }
+  RADFARM_TRY(const BlobStore cache, BlobStore::open(flags.worker.cache, limits::kBlobBytes));
   const ThreadLimit threads(static_cast<int>(flags.worker.threads));
   flags.worker.patience = std::chrono::milliseconds(static_cast<long long>(1000 * flags.patience_seconds));
   WorkerLoop loop(flags.worker, cache);

@@ -12,14 +12,14 @@
 
 namespace radfarm {
 
-/// Prepared views by their inputs, opened once for all threads of a worker. Blobs come over the network by digest into a
-/// folder that several workers of one machine may share, and are mapped from there. Thread-safe.
+/// Prepared views by their inputs, opened once for all threads of a worker. Blobs come over the network by digest into
+/// a folder that several workers of one machine may share, and are mapped from there. Thread-safe.
 class PreparedCache {
  public:
   PreparedCache(const rpc::BlobClient& client, const BlobStore& store) : client_(client), store_(store) {}
 
-  /// The view, which stays valid while the caller holds it. Waits when another thread is opening it. Shared: the cache keeps
-  /// the last few, running tasks keep theirs. DATA_LOSS and NOT_FOUND mean that the job's blobs are gone.
+  /// The view, which stays valid while the caller holds it. Waits when another thread is opening it. Shared: the cache
+  /// keeps the last few, running tasks keep theirs. DATA_LOSS and NOT_FOUND mean that the job's blobs are gone.
   Result<std::shared_ptr<const Prepared>> get(const TaskInputs& inputs);
 
  private:

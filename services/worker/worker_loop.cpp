@@ -26,7 +26,8 @@ rpc::RetryPolicy commit_policy(std::chrono::milliseconds patience) {
 
 /// A blob that is gone or damaged is the job's fault; anything else that keeps us from its data is ours.
 FailureClass opening_failure(const Error& error) {
-  const bool data = error.code == Code::kNotFound || error.code == Code::kDataLoss || error.code == Code::kInvalidArgument;
+  const bool data =
+      error.code == Code::kNotFound || error.code == Code::kDataLoss || error.code == Code::kInvalidArgument;
   return data ? FailureClass::kData : FailureClass::kWorker;
 }
 
@@ -180,7 +181,7 @@ void WorkerLoop::run_one(const Lease& lease) {
 }
 
 void WorkerLoop::hand_in(const Lease& lease, std::span<const std::byte> result, double cpu_seconds) {
-  const CommitHeader header{worker_id(),         lease.job_id, lease.slot,         lease.token,
+  const CommitHeader header{worker_id(),           lease.job_id, lease.slot,         lease.token,
                             rpc::blob_ref(result), cpu_seconds,  peak_memory_bytes()};
   CommitOutcome outcome = CommitOutcome::kSuperseded;
   const Status handed = rpc::with_retries(
@@ -225,9 +226,9 @@ void WorkerLoop::return_waiting() {
 }
 
 void WorkerLoop::note_answer(const Status& status) {
-  const bool silent = !status && (status.error().code == Code::kUnavailable ||
-                                  status.error().code == Code::kDeadlineExceeded ||
-                                  status.error().code == Code::kCancelled);
+  const bool silent =
+      !status && (status.error().code == Code::kUnavailable || status.error().code == Code::kDeadlineExceeded ||
+                  status.error().code == Code::kCancelled);
   if (silent) return;
   const std::lock_guard lock(mutex_);
   last_answer_ = Clock::now();

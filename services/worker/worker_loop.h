@@ -17,20 +17,21 @@
 namespace radfarm {
 
 struct WorkerOptions {
-  std::string coordinator;                 // host:port of its worker port
+  std::string coordinator;  // host:port of its worker port
   std::string name;
-  std::filesystem::path cache;             // blobs; may be shared by the workers of a machine
-  std::uint32_t threads = 1;               // tasks run at once
+  std::filesystem::path cache;                // blobs; may be shared by the workers of a machine
+  std::uint32_t threads = 1;                  // tasks run at once
   std::chrono::milliseconds patience{60000};  // without any answer from the coordinator, then it gives up
 };
 
-/// Leases tasks, runs them, hands results in. Threads: one leases, one renews, `threads` run tasks. A task is on one thread.
+/// Leases tasks, runs them, hands results in. Threads: one leases, one renews, `threads` run tasks. A task is on one
+/// thread.
 class WorkerLoop {
  public:
   WorkerLoop(WorkerOptions options, const BlobStore& cache);
 
-  /// Until stop(), then finishes what runs, hands the rest back and says goodbye. UNAVAILABLE when the coordinator has been
-  /// silent for longer than the patience, FAILED_PRECONDITION when it wants no more of this worker.
+  /// Until stop(), then finishes what runs, hands the rest back and says goodbye. UNAVAILABLE when the coordinator has
+  /// been silent for longer than the patience, FAILED_PRECONDITION when it wants no more of this worker.
   Status run();
   /// Ends run(); from any thread, any number of times.
   void stop();
@@ -59,9 +60,9 @@ class WorkerLoop {
   std::string worker_id_;
   std::chrono::milliseconds lease_length_{0};
   HeldLeases held_;
-  bool stopping_ = false;   // no new leases
-  bool draining_ = false;   // task threads end when nothing waits
-  bool finished_ = false;   // renewals end
+  bool stopping_ = false;  // no new leases
+  bool draining_ = false;  // task threads end when nothing waits
+  bool finished_ = false;  // renewals end
   std::chrono::steady_clock::time_point last_answer_;
 };
 

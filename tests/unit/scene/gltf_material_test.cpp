@@ -40,9 +40,9 @@ TEST(GltfMaterial, EmissionIsFactorTimesStrength) {
 }
 
 TEST(GltfMaterial, AlphaCountsOnlyInMaskAndBlend) {
-  constexpr const char* kFactor = R"("pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]})";
-  EXPECT_EQ(material_of(("{" + std::string(kFactor) + "}").c_str()).alpha, 1);
-  const Material mask = material_of((R"({"alphaMode": "MASK", "alphaCutoff": 0.3, )" + std::string(kFactor) + "}").c_str());
+  EXPECT_EQ(material_of(R"({"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]}})").alpha, 1);
+  const Material mask = material_of(R"({"alphaMode": "MASK", "alphaCutoff": 0.3,
+                                        "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]}})");
   EXPECT_EQ(mask.alpha_mode, Material::Alpha::kMask);
   EXPECT_EQ(mask.alpha, 0.25F);
   EXPECT_EQ(mask.alpha_cutoff, 0.3F);

@@ -44,7 +44,7 @@ std::string bytes_of(const std::vector<T>& values) {
 
 /// A glTF document under construction.
 struct GltfBuilder {
-  json document = {{"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}, {"scene", 0}};
+  json document = {{"asset", {{"version", "2.0"}}}};
 
   /// Adds the values as buffer, view and accessor; returns the accessor.
   template <typename T>
@@ -71,6 +71,8 @@ inline GltfBuilder triangle() {
   gltf.document["meshes"] = {
       {{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}};
   gltf.document["nodes"] = {{{"mesh", 0}}};
+  gltf.document["scenes"] = {{{"nodes", {0}}}};
+  gltf.document["scene"] = 0;
   return gltf;
 }
 

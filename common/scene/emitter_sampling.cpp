@@ -1,4 +1,4 @@
-#include "estimate/emitter_sampling.h"
+#include "scene/emitter_sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,8 +45,7 @@ bool both_hemispheres(const SurfacePoint& point, const Vec3& direction) {
   return dot(point.shading_normal, direction) > 0 && dot(point.geometric_normal, direction) > 0;
 }
 
-NextEvent sample_triangle(const World& world, const SurfacePoint& point, std::uint32_t index, const Vec2& u,
-                          Counters& counters) {
+NextEvent sample_triangle(const World& world, const SurfacePoint& point, std::uint32_t index, const Vec2& u) {
   const EmissiveTriangle& t = world.emitters.triangles[index];
   SurfacePoint target = world.surfaces.at(hit_on(world, t, sample_point(t, point.position, u)));
   const Vec3 start = leave(point);
@@ -60,17 +59,16 @@ NextEvent sample_triangle(const World& world, const SurfacePoint& point, std::ui
   const Spectrum radiance = world.surfaces.emission(target);
   event.pdf = pdf_emitter(world, index, point.position, event.direction, distance);
   if (is_black(radiance) || !(event.pdf > 0)) return {};
-  ++counters.visibility_rays;
+  event.traced = true;
   event.weight = radiance * (world.caster.transmittance(start, leave(target)) / event.pdf);
   return event;
 }
 
-NextEvent sample_punctual(const World& world, const SurfacePoint& point, const PunctualLight& light, float probability,
-                          Counters& counters) {
+NextEvent sample_punctual(const World& world, const SurfacePoint& point, const PunctualLight& light, float probability) {
   const PunctualArrival arrival = arrive(light, point.position, world.radius);
   if (is_black(arrival.irradiance) || !both_hemispheres(point, arrival.direction)) return {};
-  ++counters.visibility_rays;
   NextEvent event;
+  event.traced = true;
   event.direction = arrival.direction;
   event.weight = arrival.irradiance * (world.caster.transmittance(leave(point), arrival.target) / probability);
   return event;
@@ -78,17 +76,15 @@ NextEvent sample_punctual(const World& world, const SurfacePoint& point, const P
 
 }  // namespace
 
-NextEvent sample_emitter(const World& world, const SurfacePoint& point, float choice, const Vec2& u,
-                         Counters& counters) {
+NextEvent sample_emitter(const World& world, const SurfacePoint& point, float choice, const Vec2& u) {
   const Emitters& emitters = world.emitters;
   if (emitters.size() == 0) return {};
   const auto chosen = emitters.choice.sample(choice);
   if (chosen.index < emitters.triangles.size()) {
-    return sample_triangle(world, point, static_cast<std::uint32_t>(chosen.index), u, counters);
+    return sample_triangle(world, point, static_cast<std::uint32_t>(chosen.index), u);
   }
   const auto probability = static_cast<float>(chosen.probability);
-  return sample_punctual(world, point, emitters.punctual[chosen.index - emitters.triangles.size()], probability,
-                         counters);
+  return sample_punctual(world, point, emitters.punctual[chosen.index - emitters.triangles.size()], probability);
 }
 
 float pdf_emitter(const World& world, std::uint32_t index, const Vec3& from, const Vec3& direction, float distance) {

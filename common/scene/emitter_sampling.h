@@ -1,6 +1,5 @@
 #pragma once
 
-#include "estimate/counters.h"
 #include "math/vec.h"
 #include "scene/world.h"
 
@@ -14,10 +13,11 @@ struct NextEvent {
   Spectrum weight;       // L / pdf for triangles, I / d^2 / probability for punctual lights (both without receiver cosine)
   Vec3 direction{0, 0, 1};  // unit
   float pdf = 0;         // per steradian, of triangles; 0 for punctual lights, which no path hits
+  bool traced = false;   // whether it took a visibility ray
 };
 
 /// Samples the light that reaches `point` from one emitter, with its visibility. One shadow ray at most.
-NextEvent sample_emitter(const World& world, const SurfacePoint& point, float choice, const Vec2& u, Counters& counters);
+NextEvent sample_emitter(const World& world, const SurfacePoint& point, float choice, const Vec2& u);
 
 /// Solid-angle density with which sample_emitter() at `from` chooses the direction to a point of emissive triangle `index`,
 /// which lies at distance `distance` along unit `direction`.

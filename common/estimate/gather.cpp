@@ -1,0 +1,213 @@
+#include "estimate/gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/polygon_irradiance.h"
+#include "math/sampling.h"
+
+namespace radfarm {
+namespace {
+
+constexpr std::uint32_t kCoverageDimension = 1;
+constexpr std::uint32_t kVertexDimension = 2;
+constexpr std::uint32_t kChoiceDimension = 3;
+constexpr std::uint32_t kPunctualDimension = 4;
+constexpr std::uint32_t kFirstSenderDimension = 16;
+// More punctual lights than this are sampled by their unoccluded irradiance at the point instead of all traced.
+constexpr std::size_t kMaxTracedPunctual = 8;
+
+/// Irradiance at the visible point, direct and indirect apart, lux.
+struct Arrived {
+  Spectrum direct;
+  Spectrum indirect;
+};
+
+/// One visible point and all that its gather needs.
+struct Point {
+  const GatherContext& context;
+  const SurfacePoint& surface;
+  const PixelSampler& sampler;
+  Counters& counters;
+  Vec3 start{0, 0, 0};  // where rays leave it
+};
+
+float cosine_to(const Point& point, const Vec3& direction) {
+  return std::max(0.0F, dot(point.surface.shading_normal, direction));
+}
+
+void add_lobes(const Point& point, const VertexSenders& senders, Arrived& arrived) {
+  for (const Lobe& lobe : senders.lobes) {
+    const float cosine = cosine_to(point, lobe.direction);
+    arrived.direct += lobe.direct * cosine;
+    arrived.indirect += lobe.indirect * cosine;
+  }
+}
+
+/// Emission at the sampled point against the patch's mean: 1 for plain emitters.
+Spectrum emission_ratio(const Point& point, const SenderNode& node, const SenderSample& y) {
+  const SenderPatch& patch = point.context.tree.patches[y.patch];
+  if (patch.is_textured_emitter == 0 || node.patch == kNone) return Spectrum(1.0F);
+  const World& world = point.context.world;
+  // The patch may be a part of its triangle: go by position.
+  const TriangleVertices whole = world.surfaces.triangle(patch.instance, patch.triangle);
+  const Vec3 e1 = whole[1] - whole[0], e2 = whole[2] - whole[0], d = y.position - whole[0];
+  const Vec3 normal = cross(e1, e2);
+  const float area = dot(normal, normal);
+  float u = std::clamp(dot(cross(d, e2), normal) / area, 0.0F, 1.0F);
+  float v = std::clamp(dot(cross(e1, d), normal) / area, 0.0F, 1.0F);
+  if (world.surfaces.is_mirrored(patch.instance)) std::swap(u, v);
+  SurfacePoint at = world.surfaces.at({patch.instance, patch.triangle, u, v, 0});
+  face(at, patch.normal);
+  const Spectrum here = world.surfaces.emission(at);
+  const Spectrum mean = node.emitted_power / (kPi * node.area);
+  return {mean.r > 0 ? here.r / mean.r : 0, mean.g > 0 ? here.g / mean.g : 0, mean.b > 0 ? here.b / mean.b : 0};
+}
+
+/// What `count` lines to a sender bring: kernel-weighted visibility, and its product with the emission's texture.
+struct Visible {
+  float kernel = 0;      // mean of cos_x cos_y / (pi r^2), 1/m^2
+  float share = 0;       // sum k V / sum k
+  Spectrum textured;     // sum k V ratio / sum k
+};
+
+Visible trace(const Point& point, const CriticalSender& sender, std::uint32_t count, std::uint32_t dimension) {
+  const SenderTree& tree = point.context.tree;
+  const SenderNode& node = tree.nodes[sender.node];
+  float kernels = 0, passed = 0;
+  Spectrum textured;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const SenderSample y = sample_sender(tree, sender.node, point.sampler.one(dimension + 2 * i),
+                                         point.sampler.two(dimension + 2 * i + 1));
+    const Vec3 offset = y.position - point.surface.position;
+    const float squared = dot(offset, offset);
+    const float cosine_x = dot(point.surface.shading_normal, offset), cosine_y = -dot(y.normal, offset);
+    if (!(cosine_x > 0 && cosine_y > 0)) continue;
+    const float kernel = std::min(cosine_x * cosine_y / (kPi * squared * squared), 1 / tree.patches[y.patch].area);
+    float visible = 0;
+    if (sender.resample_visibility == 0) {
+      visible = sender.visibility;
+    } else if (dot(point.surface.geometric_normal, offset) > 0) {
+      ++point.counters.visibility_rays;
+      visible = point.context.world.caster.transmittance(point.start, y.leave());
+    }
+    kernels += kernel;
+    passed += kernel * visible;
+    textured += emission_ratio(point, node, y) * (kernel * visible);
+  }
+  // Every line fell below a horizon: they say nothing of the rest of the sender.
+  if (!(kernels > 0)) return {0, sender.visibility, Spectrum(sender.visibility)};
+  return {kernels / static_cast<float>(count), passed / kernels, textured / kernels};
+}
+
+/// All light of one critical sender at the point, visibility included.
+Arrived resample(const Point& point, const CriticalSender& sender, std::uint32_t count, std::uint32_t dimension) {
+  const SenderTree& tree = point.context.tree;
+  const SenderNode& node = tree.nodes[sender.node];
+  const bool is_patch = node.patch != kNone;
+  if (sender.resample_form_factor == 0) {
+    const float cosine = cosine_to(point, sender.direction);
+    if (cosine == 0) return {};
+    const Visible visible = trace(point, sender, count, dimension);
+    return {sender.direct * visible.textured * cosine, sender.indirect * (visible.share * cosine)};
+  }
+  float factor = 0;  // 1/m^2
+  if (is_patch) {
+    const SenderPatch& patch = tree.patches[node.patch];
+    if (dot(patch.normal, point.surface.position - patch.vertices[0]) <= 0) return {};
+    factor = fast_polygon_form_factor(patch.vertices, point.surface.position, point.surface.shading_normal) / node.area;
+    ++point.counters.form_factor_samples;
+    if (!(factor > 0)) return {};
+  }
+  const bool needs_lines = sender.resample_visibility != 0 || !is_patch || tree.patches[node.patch].is_textured_emitter != 0;
+  if (!needs_lines) {
+    const float scale = factor * sender.visibility;
+    return {node.emitted_power * scale, node.reflected_power * scale};
+  }
+  const Visible visible = trace(point, sender, count, dimension);
+  if (!is_patch) {
+    factor = visible.kernel;
+    point.counters.form_factor_samples += count;
+  }
+  return {node.emitted_power * visible.textured * factor, node.reflected_power * (visible.share * factor)};
+}
+
+/// (gather.2) Draws senders by systematic sampling: sender s is taken floor or ceil of N w_s times, N w_s on average.
+void add_critical(const Point& point, const VertexSenders& senders, Arrived& arrived) {
+  const float budget = point.context.settings.samples_per_gather;
+  float position = -point.sampler.one(kChoiceDimension);
+  std::uint32_t dimension = kFirstSenderDimension;
+  for (const CriticalSender& sender : senders.critical) {
+    const float expected = budget * sender.weight;
+    const float before = std::floor(position) + 1;
+    position += expected;
+    const auto count = static_cast<std::uint32_t>(std::max(0.0F, std::floor(position) + 1 - before));
+    if (count == 0 || !(expected > 0)) continue;
+    const Arrived one = resample(point, sender, count, dimension);
+    const float weight = static_cast<float>(count) / expected;
+    arrived.direct += one.direct * weight;
+    arrived.indirect += one.indirect * weight;
+    dimension += 2 * count;
+  }
+}
+
+void add_punctual_light(const Point& point, const PunctualLight& light, float weight, Arrived& arrived) {
+  const PunctualArrival arrival = arrive(light, point.surface.position, point.context.world.radius);
+  const float cosine = cosine_to(point, arrival.direction);
+  if (cosine == 0 || !(dot(point.surface.geometric_normal, arrival.direction) > 0)) return;
+  if (is_black(arrival.irradiance)) return;
+  ++point.counters.visibility_rays;
+  const float visible = point.context.world.caster.transmittance(point.start, arrival.target);
+  arrived.direct += arrival.irradiance * (cosine * visible * weight);
+}
+
+void add_punctual(const Point& point, Arrived& arrived) {
+  const std::vector<PunctualLight>& lights = point.context.world.emitters.punctual;
+  if (lights.size() <= kMaxTracedPunctual) {
+    for (const PunctualLight& light : lights) add_punctual_light(point, light, 1, arrived);
+    return;
+  }
+  std::vector<double> weights;
+  for (const PunctualLight& light : lights) {
+    const PunctualArrival arrival = arrive(light, point.surface.position, point.context.world.radius);
+    weights.push_back(static_cast<double>(luminance(arrival.irradiance) * cosine_to(point, arrival.direction)));
+  }
+  const DiscreteDistribution choice(weights);
+  if (!(choice.total() > 0)) return;
+  for (std::uint32_t i = 0; i < kMaxTracedPunctual; ++i) {
+    const float u = (static_cast<float>(i) + point.sampler.one(kPunctualDimension)) / kMaxTracedPunctual;
+    const auto chosen = choice.sample(static_cast<double>(u));
+    const auto weight = static_cast<float>(1 / (chosen.probability * kMaxTracedPunctual));
+    add_punctual_light(point, lights[chosen.index], weight, arrived);
+  }
+}
+
+}  // namespace
+
+RadianceParts gather_radiance(const GatherContext& context, const Ray& ray, const PixelSampler& sampler,
+                              Counters& counters) {
+  RadianceParts parts;
+  ++counters.camera_rays;
+  const auto hit = context.world.caster.closest(ray, sampler.key(kCoverageDimension));
+  if (!hit) return parts;
+  SurfacePoint surface = context.world.surfaces.at(*hit);
+  face(surface, -ray.direction);
+  parts.emission = context.world.surfaces.emission(surface);
+  const Spectrum rho = context.world.surfaces.reflectance(surface);
+  if (is_black(rho)) return parts;
+
+  const Point point{context, surface, sampler, counters, leave(surface)};
+  Arrived arrived;
+  add_punctual(point, arrived);
+  if (!context.tree.nodes.empty()) {
+    const Interpolation at = interpolate(context.senders.grid(), surface.position);
+    const VertexSenders& senders = context.senders.at(choose_vertex(at, sampler.one(kVertexDimension)));
+    add_lobes(point, senders, arrived);
+    add_critical(point, senders, arrived);
+  }
+  parts.direct = rho * arrived.direct * kInversePi;
+  if (context.has_interreflection) parts.indirect = rho * arrived.indirect * kInversePi;
+  return parts;
+}
+
+}  // namespace radfarm

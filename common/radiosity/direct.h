@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "radiosity/hierarchy.h"
+
+namespace radfarm {
+
+/// Irradiance that the emitters give each undivided patch, lux, by next-event samples on the patch itself: 4, more on large
+/// ones. Links to clusters would spread it over the cluster's lit and shaded patches alike; what a plant sends to the room
+/// comes from the leaves that are lit and seen, so who is lit matters. Noise averages out over patches. Unbiased.
+/// Values that `direct` already holds (>= 0) are kept; -1 marks those still to do. Keyed by node. About 1 us a sample.
+void sample_direct(const World& world, const Hierarchy& hierarchy, std::uint64_t seed, std::vector<Spectrum>& direct);
+
+/// The mark of a patch without a value.
+inline constexpr Spectrum kNotSampled{-1, -1, -1};
+
+}  // namespace radfarm

@@ -1,0 +1,149 @@
+#include "radiosity/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "math/sampling.h"
+#include "math/sobol.h"
+
+namespace radfarm {
+namespace {
+
+constexpr std::uint64_t kReachKey = 0x7265616368;  // "reach"
+constexpr std::uint32_t kMinRays = 4;
+constexpr std::uint32_t kMaxRays = 256;
+constexpr double kRaysPerScene = 2e5;  // spread over the area, besides kMinRays a side
+constexpr std::uint32_t kRaysPerLight = 8192;
+
+/// Union-find with path halving; the smaller number becomes the root, so the result does not depend on the order.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a), b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+struct Side {
+  std::uint32_t instance, triangle;
+  bool is_front;
+};
+
+std::uint32_t side_met(const World& world, const SideNumbers& sides, const Ray& ray, std::uint64_t key) {
+  const auto hit = world.caster.closest(ray, key);
+  if (!hit) return kNone;
+  SurfacePoint point = world.surfaces.at(*hit);
+  face(point, -ray.direction);
+  return sides.of(hit->instance, hit->triangle, point.is_front);
+}
+
+/// A point of the side, its normal turned to it.
+SurfacePoint point_on(const World& world, const Side& side, const Vec2& u) {
+  const Vec3 b = sample_uniform_triangle(u);
+  SurfacePoint point = world.surfaces.at({side.instance, side.triangle, b.y, b.z, 0});
+  if (!side.is_front) face(point, -point.geometric_normal);
+  return point;
+}
+
+void meet_others(const World& world, const SideNumbers& sides, const Side& side, std::uint32_t rays, std::uint64_t key,
+                 std::vector<std::uint32_t>& met) {
+  for (std::uint32_t i = 0; i < rays; ++i) {
+    const SurfacePoint from = point_on(world, side, sobol_owen_2d(i, combine(key, 1)));
+    const Vec3 local = sample_cosine_hemisphere(sobol_owen_2d(i, combine(key, 2)));
+    const Ray ray{leave(from), normalize(Frame(from.geometric_normal).to_world(local))};
+    const std::uint32_t other = side_met(world, sides, ray, combine(key, 3, i));
+    if (other != kNone) met.push_back(other);
+  }
+}
+
+std::vector<Side> list_sides(const Scene& scene, std::uint32_t count) {
+  std::vector<Side> list;
+  list.reserve(count);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const std::size_t triangles = scene.meshes[scene.instances[i].mesh].triangles.size();
+    for (std::uint32_t t = 0; t < triangles; ++t) {
+      list.push_back({i, t, true});
+      list.push_back({i, t, false});
+    }
+  }
+  return list;
+}
+
+double area_of(const World& world, const Side& side) {
+  const TriangleVertices v = world.surfaces.triangle(side.instance, side.triangle);
+  return length(cross(to_double(v[1]) - to_double(v[0]), to_double(v[2]) - to_double(v[0]))) / 2;
+}
+
+/// Sides that a point or spot light's rays meet, or that a directional light shines on.
+void mark_lit_by(const World& world, const SideNumbers& sides, const std::vector<Side>& list, const PunctualLight& light,
+                 std::uint64_t key, Groups& groups, std::vector<bool>& lit) {
+  if (light.kind == PunctualLight::Kind::kDirectional) {
+    for (std::uint32_t s = 0; s < list.size(); ++s) {
+      const SurfacePoint point = point_on(world, list[s], sobol_owen_2d(s, key));
+      const PunctualArrival arrival = arrive(light, point.position, world.radius);
+      if (dot(point.geometric_normal, arrival.direction) > 0 &&
+          world.caster.transmittance(leave(point), arrival.target) > 0) {
+        lit[groups.root(s)] = true;
+      }
+    }
+    return;
+  }
+  for (std::uint32_t i = 0; i < kRaysPerLight; ++i) {
+    const Ray ray{light.position, sample_uniform_sphere(sobol_owen_2d(i, key))};
+    const std::uint32_t met = side_met(world, sides, ray, combine(key, i));
+    if (met != kNone) lit[groups.root(met)] = true;
+  }
+}
+
+}  // namespace
+
+SideNumbers::SideNumbers(const Scene& scene) {
+  std::uint32_t triangles = 0;
+  for (const Instance& instance : scene.instances) {
+    first_triangle.push_back(triangles);
+    triangles += static_cast<std::uint32_t>(scene.meshes[instance.mesh].triangles.size());
+  }
+  count = 2 * triangles;
+}
+
+std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed) {
+  const std::vector<Side> list = list_sides(world.scene, sides.count);
+  double total = 0;
+  for (const Side& side : list) total += area_of(world, side);
+  std::vector<std::vector<std::uint32_t>> met(list.size());
+  parallel_for(list.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const double share = total > 0 ? area_of(world, list[s]) / total : 0;
+      const auto rays = std::clamp(static_cast<std::uint32_t>(share * kRaysPerScene), kMinRays, kMaxRays);
+      meet_others(world, sides, list[s], rays, combine(seed, kReachKey, s), met[s]);
+    }
+  });
+  Groups groups(list.size());
+  for (std::uint32_t s = 0; s < list.size(); ++s) {
+    for (const std::uint32_t other : met[s]) groups.join(s, other);
+  }
+  std::vector<bool> lit(list.size());
+  for (const EmissiveTriangle& t : world.emitters.triangles) {
+    lit[groups.root(sides.of(t.instance, t.triangle, true))] = true;
+    if (t.both_sides) lit[groups.root(sides.of(t.instance, t.triangle, false))] = true;
+  }
+  for (std::size_t i = 0; i < world.emitters.punctual.size(); ++i) {
+    mark_lit_by(world, sides, list, world.emitters.punctual[i], combine(seed, kReachKey, list.size() + i), groups, lit);
+  }
+  std::vector<bool> reached(list.size());
+  for (std::uint32_t s = 0; s < list.size(); ++s) reached[s] = lit[groups.root(s)];
+  return reached;
+}
+
+}  // namespace radfarm

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "scene/scene.h"
+#include "senders/settings.h"
+
+namespace radfarm {
+
+/// Paper 1's perspective grid: cells are equal steps across the film and equal ratios in depth, fitted to the depths that
+/// the camera sees, so that cells stay about as deep as they are wide.                 docs/pipeline.md (senders.1)
+struct PerspectiveGrid {
+  Camera camera;                // name unused
+  float film_aspect = 1;        // width / height
+  float near = 1, far = 2;      // m along the view axis
+  std::uint32_t columns = 1, rows = 1, slices = 1;
+
+  std::uint32_t cell_count() const { return columns * rows * slices; }
+  std::uint32_t vertex_count() const { return (columns + 1) * (rows + 1) * (slices + 1); }
+  std::uint32_t vertex_id(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+    return (k * (rows + 1) + j) * (columns + 1) + i;
+  }
+  std::array<std::uint32_t, 3> vertex_indices(std::uint32_t id) const {
+    return {id % (columns + 1), id / (columns + 1) % (rows + 1), id / (columns + 1) / (rows + 1)};
+  }
+  /// The world position of a vertex.
+  Vec3 vertex_position(std::uint32_t id) const;
+  /// Continuous coordinates of a point, in cells; points outside are moved to the nearest border.
+  Vec3 locate(const Vec3& position) const;
+  std::uint32_t cell_at(const Vec3& position) const;
+};
+
+/// The four vertices whose values a point interpolates, and their weights, >= 0, that add up to 1: the conforming split of
+/// each cell into five tetrahedra (ALGORITHMS 1.1.3), so that neighbours agree on every shared face.
+struct Interpolation {
+  std::array<std::uint32_t, 4> vertices{};
+  std::array<float, 4> weights{};
+};
+Interpolation interpolate(const PerspectiveGrid& grid, const Vec3& position);
+
+/// The vertex that stands for a point when `choice` in [0, 1) chooses by weight.
+std::uint32_t choose_vertex(const Interpolation& interpolation, float choice);
+
+}  // namespace radfarm

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/status.h"
+#include "senders/vertex_senders.h"
+
+namespace radfarm {
+
+/// What the coordinator leaves of the sender stage: the grid, the receivers, and the vertices that the prepass touched.
+struct SenderGridFile {
+  PerspectiveGrid grid;
+  Receivers receivers;
+  std::vector<std::uint32_t> vertices;   // ascending ids
+  std::vector<VertexSenders> senders;    // one a vertex
+};
+
+/// Prepass, grid, and the classification of every vertex that a visible point interpolates, on all threads.
+SenderGridFile classify_visible(const World& world, const SenderTree& tree, const Camera& camera, int width, int height,
+                                const SenderSettings& settings, std::uint64_t seed);
+
+[[nodiscard]] std::vector<std::byte> encode(const SenderGridFile& file);
+/// `camera` comes from the view that holds the grid. Hostile bytes give DATA_LOSS.
+Result<SenderGridFile> decode_sender_grid(std::span<const std::byte> bytes, const Camera& camera,
+                                          const SenderTree& tree);
+
+/// The senders of any vertex: those of the file, others computed when first asked for. Thread-safe.
+class SenderGrid {
+ public:
+  /// Borrows world, tree and settings.
+  SenderGrid(SenderGridFile file, const World& world, const SenderTree& tree, const SenderSettings& settings,
+             std::uint64_t seed);
+  ~SenderGrid();
+  SenderGrid(const SenderGrid&) = delete;
+  SenderGrid& operator=(const SenderGrid&) = delete;
+
+  const PerspectiveGrid& grid() const { return grid_; }
+  const VertexSenders& at(std::uint32_t vertex) const;
+  /// Vertices that were not in the file and have been computed here so far.
+  std::uint64_t computed() const { return computed_.load(std::memory_order_relaxed); }
+
+ private:
+  PerspectiveGrid grid_;
+  Receivers receivers_;
+  VertexContext context_;
+  // One slot a vertex, filled at most once. Two threads that fill the same slot compute the same bits; one result stays.
+  mutable std::vector<std::atomic<const VertexSenders*>> slots_;
+  mutable std::atomic<std::uint64_t> computed_ = 0;
+};
+
+}  // namespace radfarm

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/status.h"
+#include "math/spectrum.h"
+#include "math/vec.h"
+#include "radiosity/solve.h"
+
+namespace radfarm {
+
+/// The part of a radiosity solution that sends light: nodes and patches with power, emitted and reflected apart. Independent
+/// of any camera; stored as one flat file of kind "solution" that every view of the scene shares.
+struct SenderNode {
+  Box3 bounds;
+  Vec3 cone_axis{0, 0, 1};
+  float cone_cosine = -1;         // as Node::cone_cosine
+  float area = 0;                 // m^2
+  Spectrum emitted_power;         // lm
+  Spectrum reflected_power;       // lm
+  std::uint32_t first_child = kNone;
+  std::uint32_t child_count = 0;
+  std::uint32_t patch = kNone;    // kNone for clusters and for patches in parts, which have children
+
+  float power() const { return luminance(emitted_power) + luminance(reflected_power); }
+};
+
+struct SenderPatch {
+  TriangleVertices vertices;
+  Vec3 normal{0, 0, 1};
+  float area = 0;   // m^2
+  float offset = 0;
+  std::uint32_t instance = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t is_textured_emitter = 0;
+};
+
+struct SenderTree {
+  std::vector<SenderNode> nodes;     // 0 is the root; empty when nothing sends
+  std::vector<SenderPatch> patches;
+};
+
+SenderTree make_sender_tree(const RadiositySolution& solution);
+
+[[nodiscard]] std::vector<std::byte> encode(const SenderTree& tree);
+/// Hostile bytes give DATA_LOSS: every index is checked, children come after their parent.
+Result<SenderTree> decode_sender_tree(std::span<const std::byte> bytes);
+
+/// A point of a sender, chosen by the luminance of what its patches send, uniform on the patch.
+struct SenderSample {
+  Vec3 position{0, 0, 0};
+  Vec3 normal{0, 0, 1};
+  float offset = 0;
+  std::uint32_t patch = 0;
+  float u = 0, v = 0;   // weights of the patch's vertices 1 and 2
+  Vec3 leave() const { return position + normal * offset; }
+};
+SenderSample sample_sender(const SenderTree& tree, std::uint32_t node, float choice, const Vec2& u);
+
+}  // namespace radfarm

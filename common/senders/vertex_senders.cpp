@@ -1,0 +1,233 @@
+#include "senders/vertex_senders.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/random.h"
+#include "math/sobol.h"
+
+namespace radfarm {
+namespace {
+
+constexpr std::uint64_t kVertexKey = 0x76657274;  // "vert"
+constexpr std::uint32_t kReceivers = 16;
+constexpr std::uint32_t kMinSamples = 4;
+constexpr std::uint32_t kMaxSamples = 64;
+constexpr float kCutShare = 0.5F;       // of the threshold: how coarse a sender of the cut may be
+constexpr int kLobesPerSide = 12;       // octahedral bins of directions
+
+// All senders that a vertex interpolates may together change radiance by this many thresholds.
+constexpr float kMaxTail = 10;
+// Share of a vertex's samples that goes to its critical senders evenly: one that is weak at the receivers met may be
+// strong at a point beside it.
+constexpr float kEvenShare = 0.2F;
+
+/// What a handful of lines from receivers to a sender found.
+struct Observation {
+  float kernel = 0;                  // mean of cos_y / (pi r^2), 1/m^2
+  float kernel_min = 0, kernel_max = 0;
+  float visibility = 1;              // kernel-weighted
+  Vec3 direction{0, 0, 1};
+  float angle = 0;                   // mean angular radius of the sender, radians, at most 1
+};
+
+ReceiverRegion region_of(const PerspectiveGrid& grid, std::uint32_t vertex) {
+  ReceiverRegion region{grid.vertex_position(vertex), 0};
+  const auto [i, j, k] = grid.vertex_indices(vertex);
+  for (std::uint32_t corner = 0; corner < 8; ++corner) {
+    const std::uint32_t x = (corner & 1U) != 0 ? std::min(i + 1, grid.columns) : i - (i > 0 ? 1 : 0);
+    const std::uint32_t y = (corner & 2U) != 0 ? std::min(j + 1, grid.rows) : j - (j > 0 ? 1 : 0);
+    const std::uint32_t z = (corner & 4U) != 0 ? std::min(k + 1, grid.slices) : k - (k > 0 ? 1 : 0);
+    region.radius = std::max(region.radius, length(grid.vertex_position(grid.vertex_id(x, y, z)) - region.center));
+  }
+  return region;
+}
+
+/// (senders.1) Unoccluded irradiance that a sender may give in the region, luminance.
+float unoccluded(const SenderNode& node, const ReceiverRegion& region) {
+  const Vec3 offset = region.center - node.bounds.center();
+  const float reach = std::max(length(offset), length(node.bounds.size()) / 2);
+  return node.power() / (kPi * std::max(reach * reach, 1e-30F));
+}
+
+Observation observe(const VertexContext& context, const std::vector<ReceiverPoint>& receivers, std::uint32_t id,
+                    std::uint32_t samples, std::uint64_t key) {
+  Observation seen;
+  seen.kernel_min = std::numeric_limits<float>::infinity();
+  const float radius = length(context.tree.nodes[id].bounds.size()) / 2;
+  double kernel = 0, tried = 0, passed = 0, angle = 0;
+  Vec3d direction(0, 0, 0);
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    const ReceiverPoint& x = receivers[i % receivers.size()];
+    const SenderSample y = sample_sender(context.tree, id, sobol_owen_1d(i, combine(key, 1)),
+                                         sobol_owen_2d(i, combine(key, 2)));
+    const Vec3 offset = y.position - x.position;
+    const float squared = dot(offset, offset);
+    const float cosine_y = -dot(y.normal, offset);  // times the distance
+    // A patch fills at most half of all directions, 2 pi / pi = 2, however close it is.
+    const float k = cosine_y > 0 && squared > 0
+                        ? std::min(cosine_y / (kPi * squared * std::sqrt(squared)),
+                                   2 / context.tree.patches[y.patch].area)
+                        : 0;
+    seen.kernel_min = std::min(seen.kernel_min, k);
+    seen.kernel_max = std::max(seen.kernel_max, k);
+    kernel += static_cast<double>(k);
+    angle += static_cast<double>(std::min(1.0F, radius / std::sqrt(std::max(squared, 1e-30F))));
+    direction += to_double(normalize(offset)) * static_cast<double>(k);
+    // A sender below the receiver's horizon sends it nothing, and says nothing of what its neighbours see.
+    const bool is_above = x.normal == Vec3(0, 0, 0) || dot(x.normal, offset) > 0;
+    if (k > 0 && is_above) {
+      tried += static_cast<double>(k);
+      passed += static_cast<double>(k * context.world.caster.transmittance(x.position, y.leave()));
+    }
+  }
+  seen.kernel = static_cast<float>(kernel / samples);
+  seen.angle = static_cast<float>(angle / samples);
+  seen.visibility = tried > 0 ? static_cast<float>(passed / tried) : 1;
+  seen.direction = kernel > 0 ? to_float(normalize(direction)) : Vec3(0, 0, 1);
+  return seen;
+}
+
+/// The bin of a direction on the octahedron.
+std::size_t lobe_of(const Vec3& d) {
+  const float sum = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
+  float x = d.x / sum, y = d.y / sum;
+  if (d.z < 0) {
+    const float folded_x = (1 - std::fabs(y)) * std::copysign(1.0F, x);
+    y = (1 - std::fabs(x)) * std::copysign(1.0F, y);
+    x = folded_x;
+  }
+  const auto bin = [](float t) { return std::clamp(static_cast<int>((t + 1) / 2 * kLobesPerSide), 0, kLobesPerSide - 1); };
+  return static_cast<std::size_t>(bin(y) * kLobesPerSide + bin(x));
+}
+
+/// Sums interpolated senders into lobes; each lobe's direction is the irradiance-weighted mean.
+class LobeSums {
+ public:
+  void add(const Vec3& direction, const Spectrum& direct, const Spectrum& indirect) {
+    Sum& sum = sums_[lobe_of(direction)];
+    sum.direction += to_double(direction) * static_cast<double>(luminance(direct) + luminance(indirect));
+    sum.direct += SpectrumD(direct);
+    sum.indirect += SpectrumD(indirect);
+  }
+  std::vector<Lobe> lobes() const {
+    std::vector<Lobe> result;
+    for (const Sum& sum : sums_) {
+      if (!(length(sum.direction) > 0)) continue;
+      result.push_back({to_float(normalize(sum.direction)), Spectrum(sum.direct), Spectrum(sum.indirect)});
+    }
+    return result;
+  }
+
+ private:
+  struct Sum {
+    Vec3d direction{0, 0, 0};
+    SpectrumD direct, indirect;
+  };
+  std::array<Sum, kLobesPerSide * kLobesPerSide> sums_;
+};
+
+float mean_reflectance(const std::vector<ReceiverPoint>& receivers) {
+  float sum = 0;
+  for (const ReceiverPoint& receiver : receivers) sum += receiver.reflectance;
+  return sum / static_cast<float>(receivers.size());
+}
+
+/// A sender as its first samples judge it: the largest changes of radiance that interpolating it may cause.
+struct Judged {
+  std::uint32_t node = 0;
+  std::uint32_t samples = 0;
+  float form_factor_change = 0;  // (senders.2)
+  float visibility_change = 0;   // (senders.3)
+  float weight = 0;              // unoccluded radiance
+  float change() const { return std::max(form_factor_change, visibility_change); }
+};
+
+Judged judge(const SenderNode& node, std::uint32_t id, std::uint32_t samples, const Observation& seen, float reflectance) {
+  const float radiance = reflectance * kInversePi * node.power();
+  // Eq. 2 leaves the receiver's cosine out; over a wide sender it varies by about the angle the sender subtends.
+  const float kernel_change = std::max(seen.kernel_max - seen.kernel_min, 0.5F * seen.kernel * seen.angle);
+  const bool is_partial = seen.visibility > 0 && seen.visibility < 1;
+  return {id, samples, radiance * kernel_change * seen.visibility, is_partial ? radiance * seen.kernel : 0,
+          radiance * std::max(seen.kernel, 0.25F * seen.kernel_max)};
+}
+
+/// The change above which a sender is critical: the threshold, or less where many small changes would add up to more than
+/// kMaxTail thresholds. (senders.4)
+float critical_change(const std::vector<Judged>& senders, float threshold) {
+  std::vector<float> changes;
+  for (const Judged& sender : senders) changes.push_back(sender.change());
+  std::sort(changes.begin(), changes.end());
+  double sum = 0;
+  for (const float change : changes) {
+    sum += static_cast<double>(change);
+    if (change > threshold || sum > static_cast<double>(kMaxTail * threshold)) return std::min(threshold, std::nextafter(change, 0.0F));
+  }
+  return threshold;
+}
+
+/// What is interpolated comes from samples that had no part in the decision to interpolate: among senders judged by four
+/// lines, those whose lines happened to miss are interpolated and those whose lines hit are resampled, so the deciding
+/// samples are biased towards the dark.
+void measure(const SenderNode& node, const Observation& seen, CriticalSender& sender) {
+  sender.direction = seen.direction;
+  sender.direct = node.emitted_power * seen.kernel;
+  sender.indirect = node.reflected_power * seen.kernel;
+  sender.visibility = seen.visibility;
+}
+
+}  // namespace
+
+VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex) {
+  const ReceiverRegion region = region_of(context.grid, vertex);
+  const std::vector<ReceiverPoint> receivers = receivers_around(context.grid, context.receivers, vertex, kReceivers);
+  const float reflectance = mean_reflectance(receivers);
+  const float max_irradiance = kCutShare * context.settings.threshold * kPi / std::max(reflectance, 1e-3F);
+  const std::vector<std::uint32_t> senders =
+      cut_senders(context.tree, region, max_irradiance, context.settings.max_senders);
+  double total = 0;
+  for (const std::uint32_t id : senders) total += static_cast<double>(unoccluded(context.tree.nodes[id], region));
+
+  std::vector<Judged> judged;
+  const auto key_of = [&](std::uint32_t id) { return combine(context.seed, kVertexKey, vertex, id); };
+  for (const std::uint32_t id : senders) {
+    const SenderNode& node = context.tree.nodes[id];
+    const double share = total > 0 ? static_cast<double>(unoccluded(node, region)) / total : 0;
+    const auto samples = std::clamp(static_cast<std::uint32_t>(share * context.settings.vertex_samples), kMinSamples,
+                                    kMaxSamples);
+    judged.push_back(judge(node, id, samples, observe(context, receivers, id, samples, combine(key_of(id), 1)), reflectance));
+  }
+  const float threshold = critical_change(judged, context.settings.threshold);
+
+  VertexSenders result;
+  LobeSums lobes;
+  double weights = 0;
+  for (const Judged& sender : judged) {
+    const SenderNode& node = context.tree.nodes[sender.node];
+    CriticalSender critical;
+    critical.node = sender.node;
+    critical.resample_form_factor = sender.form_factor_change > threshold ? 1 : 0;
+    critical.resample_visibility = sender.visibility_change > threshold ? 1 : 0;
+    critical.weight = sender.weight;
+    const bool needs_both = critical.resample_form_factor != 0 && critical.resample_visibility != 0;
+    if (!needs_both) {
+      measure(node, observe(context, receivers, sender.node, sender.samples, combine(key_of(sender.node), 2)), critical);
+    }
+    if (critical.resample_form_factor == 0 && critical.resample_visibility == 0) {
+      lobes.add(critical.direction, critical.direct * critical.visibility, critical.indirect * critical.visibility);
+    } else {
+      result.critical.push_back(critical);
+      weights += static_cast<double>(critical.weight);
+    }
+  }
+  const float even = 1 / static_cast<float>(result.critical.size());
+  for (CriticalSender& sender : result.critical) {
+    const auto share = static_cast<float>(weights > 0 ? static_cast<double>(sender.weight) / weights : 0);
+    sender.weight = (1 - kEvenShare) * share + kEvenShare * even;
+  }
+  result.lobes = lobes.lobes();
+  return result;
+}
+
+}  // namespace radfarm

@@ -1,0 +1,108 @@
+#include "cli/closing_table.h"
+
+#include <array>
+#include <cstdio>
+
+namespace radfarm::cli {
+namespace {
+
+using nlohmann::json;
+
+/// Some letters and digits around a format: snprintf without a buffer to size.
+template <typename... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 512> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+std::string short_text(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return format("%.4g", value.get<double>());
+  return value.is_null() ? "-" : value.dump();
+}
+
+double number(const json& object, const char* key) {
+  return object.contains(key) && object[key].is_number() ? object[key].get<double>() : 0;
+}
+
+std::string stages_table(const json& stages) {
+  std::string text = format("%-24s %10s %10s\n", "stage", "wall s", "CPU s");
+  for (const json& stage : stages) {
+    if (!stage.is_object()) continue;
+    text += format("%-24s %10.2f %10.2f\n", stage.value("name", std::string("?")).c_str(), number(stage, "wall_s"),
+                   number(stage, "cpu_s"));
+  }
+  return text;
+}
+
+std::string counts_table(const json& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts.items()) {
+    if (count.is_number() && count.get<double>() == 0) continue;
+    text += format("%-36s %12s\n", name.c_str(), short_text(count).c_str());
+  }
+  return text;
+}
+
+/// The ids that are on, and those that are off, in two lines.
+std::string effects_lines(const json& effects) {
+  std::string on;
+  std::string off;
+  for (const json& effect : effects) {
+    if (!effect.is_object()) continue;
+    std::string& list = effect.value("active", false) ? on : off;
+    list.append(" ").append(effect.value("id", std::string("?")));
+  }
+  return "effects on: " + (on.empty() ? std::string(" none") : on) +
+         "\neffects off:" + (off.empty() ? std::string(" none") : off) + "\n";
+}
+
+std::string percent(const json& value) { return format("%.3g %%", 100 * value.get<double>()); }
+
+bool is_interval(const json& value) {
+  return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
+}
+
+}  // namespace
+
+std::string accuracy_line(const json& report) {
+  const json accuracy = report.value("accuracy", json::object());
+  const double pixels = number(accuracy, "audited_pixels");
+  if (pixels <= 0) return "error: not measured (--no-audit)";
+  const json value = accuracy.value("relative_rmse", json());
+  const json interval = accuracy.value("relative_rmse_ci95", json());
+  const std::string audited = format(", %.0f pixels audited", pixels);
+  if (value.is_number() && is_interval(interval)) {
+    return "relative error " + percent(value) + " (95 %: " + percent(interval[0]) + " to " + percent(interval[1]) +
+           ")" + audited;
+  }
+  if (is_interval(interval)) return "relative error < " + percent(interval[1]) + " (95 %)" + audited;
+  return "relative error: undefined, the image is black" + audited;
+}
+
+std::string effects_table(const json& effects) {
+  std::string text = format("%-26s %-4s %-12s %-12s %-12s %s\n", "effect", "on", "value", "bound", "kind", "test");
+  for (const json& effect : effects) {
+    if (!effect.is_object()) continue;
+    text += format("%-26s %-4s %-12s %-12s %-12s %s\n", effect.value("id", std::string("?")).c_str(),
+                   effect.value("active", false) ? "on" : "off", short_text(effect.value("value", json())).c_str(),
+                   short_text(effect.value("bound", json())).c_str(),
+                   short_text(effect.value("bound_kind", json())).c_str(),
+                   short_text(effect.value("test", json())).c_str());
+  }
+  return text;
+}
+
+std::string closing_table(const json& report) {
+  std::string text;
+  if (report.contains("stages")) text += stages_table(report["stages"]) + "\n";
+  if (report.contains("counts")) text += counts_table(report["counts"]) + "\n";
+  if (report.contains("effects")) text += effects_lines(report["effects"]);
+  if (report.contains("warnings")) {
+    for (const json& warning : report["warnings"]) text.append("warning: ").append(short_text(warning)).append("\n");
+  }
+  return text + accuracy_line(report) + "\n";
+}
+
+}  // namespace radfarm::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace radfarm::cli {
+
+/// What a render ends with: stages with wall and CPU seconds, counts, effects, the audited error with its interval.
+/// From the report JSON (DESIGN section 9); what the report does not say is left out. Ends with a line break.
+std::string closing_table(const nlohmann::json& report);
+
+/// The audited error in one line, such as "relative error 1.2 % (95 %: 0.9 % to 1.6 %), 256 pixels audited".
+std::string accuracy_line(const nlohmann::json& report);
+
+/// The effects plan, one line an effect: id, on or off, test, measured value, bound of skipping.
+std::string effects_table(const nlohmann::json& effects);
+
+}  // namespace radfarm::cli

@@ -1,0 +1,87 @@
+// `radfarm render`: a farm of its own on loopback, one job, the same code and the same bits as on a thousand machines.
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "cli/closing_table.h"
+#include "cli/commands.h"
+#include "cli/deliver.h"
+#include "cli/follow.h"
+#include "cli/local_farm.h"
+#include "cli/request_flags.h"
+#include "cli/upload.h"
+#include "process/signals.h"
+
+namespace radfarm::cli {
+namespace {
+
+struct RenderFlags {
+  std::filesystem::path scene;
+  Outputs outputs;
+  RequestFlags request;
+  int workers = 2;
+  int threads = 0;  // 0: the machine's cores shared out
+};
+
+LocalFarm::Options farm_options(const RenderFlags& flags) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return {flags.workers, flags.threads > 0 ? flags.threads : std::max(1, cores / flags.workers)};
+}
+
+ExitCode exit_code_of(const nlohmann::json& report) {
+  const nlohmann::json accuracy = report.value("accuracy", nlohmann::json::object());
+  const bool missed = accuracy.value("target_met", nlohmann::json()) == nlohmann::json(false);
+  return missed ? ExitCode::kTargetNotMet : ExitCode::kDone;
+}
+
+Result<nlohmann::json> render(const RenderFlags& flags, const RenderRequest& request, Events& events) {
+  const SignalWatcher signals({SIGINT, SIGTERM, SIGCHLD}, [&](int signal) {
+    if (signal == SIGCHLD) return events.child_ended();
+    events.interrupt();
+  });
+  RADFARM_TRY_STATUS(check_folders(flags.outputs));
+  RADFARM_TRY(LocalFarm farm, LocalFarm::start(farm_options(flags)));
+  FarmClient client(farm.address());
+  RADFARM_TRY(const JobStatus job, submit_scene(client, flags.scene, request, events));
+  Progress progress(Progress::style_for_stderr());
+  FollowOptions options;
+  options.on_interrupt = FollowOptions::OnInterrupt::kCancelJob;
+  options.check_children = [&] { return farm.check(); };
+  const Result<JobStatus> done = follow(client, job.id, options, events, progress);
+  progress.finish();
+  if (!done) return tl::unexpected(done.error());
+  RADFARM_TRY_STATUS(check_succeeded(*done));
+  return deliver(client, *done, flags.outputs);
+}
+
+Result<ExitCode> run_render(const RenderFlags& flags) {
+  const Result<RenderRequest> request = parse_request(flags.request);
+  if (!request) return usage_error(request.error());
+  if (const Status usage = check_usage(flags.outputs); !usage) return usage_error(usage.error());
+  // The farm's own chatter is for whoever debugs it: RADFARM_LOG=info shows it.
+  ::setenv("RADFARM_LOG", "warn", /*overwrite=*/0);
+  Events events;
+  RADFARM_TRY(const nlohmann::json report, render(flags, *request, events));
+  std::fputs(closing_table(report).c_str(), stdout);
+  return exit_code_of(report);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Action& action) {
+  CLI::App& verb = *app.add_subcommand("render", "render a scene on this machine");
+  const auto flags = std::make_shared<RenderFlags>();  // shared: by the parser and by the action
+  verb.add_option("SCENE", flags->scene, ".gltf, .glb or .obj")->required();
+  add_output_flags(verb, flags->outputs);
+  add_request_flags(verb, flags->request);
+  verb.add_option("--workers", flags->workers, "worker processes")->check(CLI::Range(1, 256));
+  verb.add_option("--threads", flags->threads, "of each worker; default: the cores shared out")
+      ->check(CLI::Range(1, 1024));
+  verb.callback([&action, flags] { action = [flags] { return run_render(*flags); }; });
+}
+
+}  // namespace radfarm::cli

@@ -1,0 +1,130 @@
+// `radfarm render` as a person runs it.
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "integration/processes.h"
+#include "process/child_process.h"
+
+namespace radfarm::test {
+namespace {
+
+using Exit = ChildProcess::Exit;
+
+/// A folder for outputs that is the children's temporary folder too: its name marks the processes of this test.
+class RenderTest : public testing::Test {
+ protected:
+  RenderTest() { ::setenv("TMPDIR", folder_.path().c_str(), 1); }
+  ~RenderTest() override { ::unsetenv("TMPDIR"); }
+
+  ChildProcess start(std::vector<std::string> flags) {
+    flags.insert(flags.begin(), "render");
+    return std::move(*ChildProcess::start(program("radfarm"), flags, ChildProcess::Stdout::kToStderr));
+  }
+  Exit run(const std::vector<std::string>& flags) { return start(flags).wait(kPatience).value_or(Exit{true, 0}); }
+  std::string output(const std::string& name) const { return (folder_.path() / name).string(); }
+  nlohmann::json report(const std::string& name) const {
+    return nlohmann::json::parse(read_file(output(name), 1 << 24).value_or("{}"));
+  }
+  /// Processes that a render started: their data folder lies in ours.
+  std::vector<int> farm_processes() const { return processes_with(output("radfarm-render.")); }
+
+  TemporaryDirectory folder_ = *TemporaryDirectory::create("render-test");
+};
+
+TEST_F(RenderTest, TheImageDependsOnNeitherWorkersNorThreadsNorTiles) {
+  std::string digest;
+  for (const char* workers : {"1", "2", "3"}) {
+    for (const char* tile : {"8", "17", "64"}) {
+      const Exit exit = run({scene("cornell.gltf"), "-o", output("a.exr"), "--report", output("a.json"), "--size",
+                             "70x50", "--samples", "4", "--quality", "preview", "--workers", workers, "--threads",
+                             workers[0] == '1' ? "2" : "1", "--tile", tile});
+      ASSERT_EQ(exit, (Exit{false, 0}));
+      const std::string found = report("a.json")["image"]["digest"];
+      if (digest.empty()) digest = found;
+      EXPECT_EQ(found, digest) << workers << " workers, tiles of " << tile;
+    }
+  }
+}
+
+TEST_F(RenderTest, WritesImagePreviewAndReport) {
+  const Exit exit = run({scene("cornell.gltf"), "-o", output("a.exr"), "--png", output("a.png"), "--exposure", "1.5",
+                         "--report", output("a.json"), "--size", "32x24", "--quality", "preview"});
+  ASSERT_EQ(exit, (Exit{false, 0}));
+  EXPECT_EQ(read_file(output("a.exr"), 1 << 24)->substr(0, 4), "\x76\x2f\x31\x01");
+  EXPECT_EQ(read_file(output("a.png"), 1 << 24)->substr(1, 3), "PNG");
+  const nlohmann::json json = report("a.json");
+  EXPECT_EQ(json["image"]["path"], output("a.exr"));
+  EXPECT_EQ(json["workers"].size(), 2U);
+  EXPECT_TRUE(farm_processes().empty());
+}
+
+TEST_F(RenderTest, ABadSceneIsExitCode3AndLeavesNothing) {
+  ASSERT_TRUE(
+      write_file_atomically(output("bad.gltf"), std::string_view("{\"asset\": {\"version\": \"2.0\"}, \"nodes\": 7}")));
+  EXPECT_EQ(run({output("bad.gltf"), "-o", output("a.exr")}), (Exit{false, 3}));
+  EXPECT_EQ(run({output("missing.gltf"), "-o", output("a.exr")}), (Exit{false, 3}));
+  EXPECT_FALSE(std::filesystem::exists(output("a.exr")));
+  EXPECT_TRUE(farm_processes().empty());
+}
+
+TEST_F(RenderTest, WrongFlagsAreExitCode2) {
+  EXPECT_EQ(run({scene("cornell.gltf")}), (Exit{false, 2}));
+  EXPECT_EQ(run({scene("cornell.gltf"), "-o", output("a.exr"), "--error", "2%"}), (Exit{false, 2}));
+  EXPECT_EQ(run({scene("cornell.gltf"), "-o", output("a.exr"), "--tile", "0"}), (Exit{false, 2}));
+}
+
+class EndedRenderTest : public RenderTest {
+ protected:
+  /// A render that would take minutes, once its workers and a prepared scene are there.
+  ChildProcess start_long_render() {
+    ChildProcess render = start({scene("cornell.gltf"), "-o", output("a.exr"), "--size", "1000x1000", "--samples",
+                                 "4096", "--integrator", "path-trace"});
+    EXPECT_TRUE(eventually([&] { return has_fetched_a_view(); })) << "a worker is at work";
+    EXPECT_GE(farm_processes().size(), 3U);
+    return render;
+  }
+  /// Blobs lie in the workers' cache.
+  bool has_fetched_a_view() const {
+    int files = 0;
+    std::error_code ignored;  // the folders come and go
+    for (const auto& render : std::filesystem::directory_iterator(folder_.path(), ignored)) {
+      const std::filesystem::recursive_directory_iterator cache(render.path() / "cache", ignored);
+      for (const auto& entry : cache) files += entry.path().filename().string().size() == 64 ? 1 : 0;
+    }
+    return files >= 2;
+  }
+};
+
+TEST_F(EndedRenderTest, CtrlCCancelsAndLeavesNothing) {
+  ChildProcess render = start_long_render();
+  render.signal(SIGINT);
+  EXPECT_EQ(render.wait(kPatience), (Exit{false, 4}));
+  EXPECT_TRUE(farm_processes().empty());
+  EXPECT_FALSE(std::filesystem::exists(output("a.exr")));
+}
+
+TEST_F(EndedRenderTest, AKilledRenderTakesItsFarmAlong) {
+  ChildProcess render = start_long_render();
+  render.signal(SIGKILL);
+  EXPECT_EQ(render.wait(kPatience), (Exit{true, SIGKILL}));
+  EXPECT_TRUE(eventually([&] { return farm_processes().empty(); }));
+}
+
+TEST_F(EndedRenderTest, WhenAllWorkersDieItSaysSoAndEnds) {
+  ChildProcess render = start_long_render();
+  for (const int pid : processes_with("--coordinator")) {
+    const std::vector<int> ours = farm_processes();
+    if (std::find(ours.begin(), ours.end(), pid) != ours.end()) ::kill(pid, SIGKILL);
+  }
+  EXPECT_EQ(render.wait(kPatience), (Exit{false, 1}));
+  EXPECT_TRUE(farm_processes().empty());
+}
+
+}  // namespace
+}  // namespace radfarm::test

@@ -1,0 +1,76 @@
+#include "cli/request_flags.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace radfarm::cli {
+namespace {
+
+using testing::HasSubstr;
+
+Result<RenderRequest> parse(const std::string& line) {
+  CLI::App app;
+  RequestFlags flags;
+  add_request_flags(app, flags);
+  app.parse(line);
+  return parse_request(flags);
+}
+
+std::string error_of(const std::string& line) {
+  const Result<RenderRequest> request = parse(line);
+  return request ? "accepted" : request.error().message;
+}
+
+TEST(RequestFlags, DefaultsAreTheRequestsDefaults) { EXPECT_EQ(*parse(""), RenderRequest()); }
+
+TEST(RequestFlags, FillTheRequest) {
+  const RenderRequest request = *parse(
+      "--size 70x50 --samples 4 --seed 9 --tile 17 --integrator path-trace --quality high --no-audit "
+      "--threshold 0.5 --up Z --camera 1");
+  EXPECT_EQ(request.width, 70);
+  EXPECT_EQ(request.height, 50);
+  EXPECT_EQ(request.samples, 4);
+  EXPECT_EQ(request.seed, 9U);
+  EXPECT_EQ(request.tile, 17);
+  EXPECT_EQ(request.integrator, RenderRequest::Integrator::kPathTrace);
+  EXPECT_EQ(request.quality, RenderRequest::Quality::kHigh);
+  EXPECT_FALSE(request.audit);
+  EXPECT_EQ(request.threshold, 0.5F);
+  EXPECT_EQ(request.up, RenderRequest::UpAxis::kZ);
+  EXPECT_EQ(std::get<RenderRequest::NamedCamera>(request.camera).name_or_index, "1");
+}
+
+TEST(RequestFlags, PlaceACamera) {
+  const RenderRequest request = *parse("--eye 1,2.5,-3 --look-at 0,0,0 --fov 30");
+  const auto& camera = std::get<RenderRequest::PlacedCamera>(request.camera);
+  EXPECT_EQ(camera.eye, Vec3d(1, 2.5, -3));
+  EXPECT_EQ(camera.vertical_fov_degrees, 30);
+}
+
+TEST(RequestFlags, WrongValuesAreNamedWithWhatWouldBeRight) {
+  EXPECT_THAT(error_of("--size 640"), HasSubstr("WIDTHxHEIGHT"));
+  EXPECT_THAT(error_of("--size 640x"), HasSubstr("WIDTHxHEIGHT"));
+  EXPECT_THAT(error_of("--size 0x5"), HasSubstr("--size"));
+  EXPECT_THAT(error_of("--eye 1,2 --look-at 0,0,0"), HasSubstr("three numbers"));
+  EXPECT_THAT(error_of("--eye 1,2,nan --look-at 0,0,0"), HasSubstr("three numbers"));
+  EXPECT_THAT(error_of("--eye 1,2,3"), HasSubstr("--look-at"));
+  EXPECT_THAT(error_of("--eye 1,2,3 --look-at 0,0,0 --camera x"), HasSubstr("exclude"));
+  EXPECT_THAT(error_of("--up X"), HasSubstr("Y or Z"));
+  EXPECT_THAT(error_of("--integrator magic"), HasSubstr("path-trace"));
+  EXPECT_THAT(error_of("--quality best"), HasSubstr("standard"));
+  EXPECT_THAT(error_of("--samples 0"), HasSubstr("--samples"));
+}
+
+TEST(RequestFlags, WhatIsNotBuiltIsRefusedAndNotIgnored) {
+  for (const char* line : {"--error 2%", "--time 60s", "--photons 5", "--radius 1", "--oracle KL", "--mesh",
+                           "--env sky", "--ies a=b", "--aov normal", "--gather paper", "--criterion KL",
+                           "--integrator radiosity", "--integrator paths", "--integrator photon-map"}) {
+    const Result<RenderRequest> request = parse(line);
+    ASSERT_FALSE(request) << line;
+    EXPECT_EQ(request.error().code, Code::kUnimplemented) << line;
+    EXPECT_THAT(request.error().message, HasSubstr("is not built yet: ")) << line;
+  }
+}
+
+}  // namespace
+}  // namespace radfarm::cli

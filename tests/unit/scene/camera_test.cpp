@@ -1,0 +1,69 @@
+#include "scene/camera.h"
+
+#include <gmock/gmock.h>
+
+#include "unit/scene/scene_builder.h"
+
+namespace radfarm {
+namespace {
+
+using testing::HasSubstr;
+
+void expect_near(const Vec3& a, const Vec3& b) { EXPECT_LT(length(a - b), 1e-5F) << a << " is not " << b; }
+
+TEST(Camera, TheCentreRayRunsForwardAndCornersSpanTheFieldOfView) {
+  const Camera camera = *place_camera({0, 0, 0}, {0, 0, -5}, {0, 1, 0}, kPi / 2);
+  expect_near(camera_ray(camera, 200, 100, 100, 50).direction, {0, 0, -1});
+  expect_near(camera_ray(camera, 200, 100, 0, 0).direction, normalize(Vec3(-2, 1, -1)));
+  expect_near(camera_ray(camera, 200, 100, 200, 100).direction, normalize(Vec3(2, -1, -1)));
+}
+
+TEST(Camera, OrthographicRaysAreParallel) {
+  Camera camera;
+  camera.kind = Camera::Kind::kOrthographic;
+  camera.half_height = 2;
+  const Ray corner = camera_ray(camera, 200, 100, 0, 0);
+  expect_near(corner.direction, {0, 0, -1});
+  expect_near(corner.origin, {-4, 2, 0});
+}
+
+TEST(Camera, AnUpVectorAlongTheViewIsReplaced) {
+  const auto camera = place_camera({0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 1);
+  ASSERT_TRUE(camera);
+  expect_near(camera->forward, {0, -1, 0});
+  EXPECT_NEAR(length(camera->right), 1, 1e-6);
+  expect_near(cross(camera->right, camera->up), -camera->forward);
+}
+
+TEST(Camera, LookingAtItsOwnPlaceIsAnError) {
+  EXPECT_FALSE(place_camera({1, 2, 3}, {1, 2, 3}, {0, 1, 0}, 1));
+  EXPECT_FALSE(place_camera({1, 2, 3}, {0, 0, 0}, {0, 1, 0}, 0));
+}
+
+TEST(Camera, IsFoundByNameOrIndex) {
+  Scene scene;
+  scene.cameras.resize(2);
+  scene.cameras[1].name = "door";
+  EXPECT_EQ(find_camera(scene, "door")->name, "door");
+  EXPECT_EQ(find_camera(scene, "1")->name, "door");
+  const auto none = find_camera(scene, "roof");
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, Code::kNotFound);
+  EXPECT_THAT(none.error().message, HasSubstr("0 '', 1 'door'"));
+}
+
+TEST(FrameScene, LooksIntoARoomFromInsideAndAtAnObjectFromOutside) {
+  const std::filesystem::path scenes = std::filesystem::path(RADFARM_SOURCE_DIR) / "tests" / "scenes";
+  const Result<Scene> room = load_scene(scenes / "room.gltf");
+  ASSERT_TRUE(room) << room.error().message;
+  const Vec3d eye = to_double(frame_scene(*room).position) + room->origin;
+  EXPECT_TRUE(eye.x > 0 && eye.x < 6 && eye.y > 0 && eye.y < 2.8 && eye.z > 0 && eye.z < 5) << eye;
+  Scene object = *load_scene(scenes / "furnace.gltf");
+  for (auto& t : object.meshes[0].triangles) std::swap(t[1], t[2]);
+  EXPECT_GT(length(to_double(frame_scene(object).position) + object.origin), 2);
+}
+
+TEST(FrameScene, AnEmptySceneHasAViewToo) { EXPECT_TRUE(is_finite(frame_scene(Scene{}).position)); }
+
+}  // namespace
+}  // namespace radfarm
