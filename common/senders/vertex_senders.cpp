@@ -56,7 +56,8 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
   Observation seen;
   seen.kernel_min = std::numeric_limits<float>::infinity();
   const float radius = length(context.tree.nodes[id].bounds.size()) / 2;
-  double kernel = 0, tried = 0, passed = 0, angle = 0;
+  double kernel = 0, passed = 0, angle = 0;
+  std::uint32_t above = 0;
   Vec3d direction(0, 0, 0);
   for (std::uint32_t i = 0; i < samples; ++i) {
     const ReceiverPoint& x = receivers[i % receivers.size()];
@@ -64,28 +65,25 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
                                          sobol_owen_2d(i, combine(key, 2)));
     const Vec3 offset = y.position - x.position;
     const float squared = dot(offset, offset);
-    const float cosine_y = -dot(y.normal, offset);  // times the distance
+    // A sender below a receiver's horizon sends it nothing, and says nothing of what its neighbours get.
+    const bool is_above = x.normal == Vec3(0, 0, 0) || dot(x.normal, offset) > 0;
+    if (!is_above || !(squared > 0)) continue;
+    ++above;
+    const float cosine_y = std::max(0.0F, -dot(y.normal, offset));  // times the distance
     // A patch fills at most half of all directions, 2 pi / pi = 2, however close it is.
-    const float k = cosine_y > 0 && squared > 0
-                        ? std::min(cosine_y / (kPi * squared * std::sqrt(squared)),
-                                   2 / context.tree.patches[y.patch].area)
-                        : 0;
+    const float k = std::min(cosine_y / (kPi * squared * std::sqrt(squared)), 2 / context.tree.patches[y.patch].area);
     seen.kernel_min = std::min(seen.kernel_min, k);
     seen.kernel_max = std::max(seen.kernel_max, k);
     kernel += static_cast<double>(k);
-    angle += static_cast<double>(std::min(1.0F, radius / std::sqrt(std::max(squared, 1e-30F))));
+    angle += static_cast<double>(std::min(1.0F, radius / std::sqrt(squared)));
     direction += to_double(normalize(offset)) * static_cast<double>(k);
-    // A sender below the receiver's horizon sends it nothing, and says nothing of what its neighbours see.
-    const bool is_above = x.normal == Vec3(0, 0, 0) || dot(x.normal, offset) > 0;
-    if (k > 0 && is_above) {
-      tried += static_cast<double>(k);
-      passed += static_cast<double>(k * context.world.caster.transmittance(x.position, y.leave()));
-    }
+    if (k > 0) passed += static_cast<double>(k * context.world.caster.transmittance(x.position, y.leave()));
   }
-  seen.kernel = static_cast<float>(kernel / samples);
-  seen.angle = static_cast<float>(angle / samples);
-  seen.visibility = tried > 0 ? static_cast<float>(passed / tried) : 1;
-  seen.direction = kernel > 0 ? to_float(normalize(direction)) : Vec3(0, 0, 1);
+  if (!(kernel > 0)) return {0, 0, 0, 0, {0, 0, 1}, 0};
+  seen.kernel = static_cast<float>(kernel / above);
+  seen.angle = static_cast<float>(angle / above);
+  seen.visibility = static_cast<float>(passed / kernel);
+  seen.direction = to_float(normalize(direction));
   return seen;
 }
 
