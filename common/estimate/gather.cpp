@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "math/polygon_irradiance.h"
 #include "math/sampling.h"
@@ -16,6 +17,9 @@ constexpr std::uint32_t kPunctualDimension = 4;
 constexpr std::uint32_t kFirstSenderDimension = 16;
 // More punctual lights than this are sampled by their unoccluded irradiance at the point instead of all traced.
 constexpr std::size_t kMaxTracedPunctual = 8;
+
+// A patch with a larger form factor is drawn by solid angle.
+constexpr float kNearFormFactor = 2e-3F;
 
 /// Irradiance at the visible point, direct and indirect apart, lux.
 struct Arrived {
@@ -66,38 +70,71 @@ Spectrum emission_ratio(const Point& point, const SenderNode& node, const Sender
 
 /// What `count` lines to a sender bring: kernel-weighted visibility, and its product with the emission's texture.
 struct Visible {
-  float kernel = 0;      // mean of cos_x cos_y / (pi r^2), 1/m^2
+  float kernel = 0;      // clusters: mean of cos_x cos_y / (pi r^2), 1/m^2
   float share = 0;       // sum k V / sum k
   Spectrum textured;     // sum k V ratio / sum k
 };
 
-Visible trace(const Point& point, const CriticalSender& sender, std::uint32_t count, std::uint32_t dimension) {
+/// A point of the sender and the weight, up to a common factor, with which it stands for what the receiver gets.
+struct Line {
+  SenderSample target;
+  float weight = 0;
+};
+
+/// Points of a patch that fills much of the view are drawn by solid angle: evenly by area, hardly any would fall on the near
+/// part that gives most of the light, and visibility would be that of the far part.
+Line draw_by_solid_angle(const Point& point, const SenderNode& node, const SphericalTriangle& triangle, const Vec2& u) {
+  const SenderPatch& patch = point.context.tree.patches[node.patch];
+  const SphericalTriangle::Sample sample = triangle.sample(u);
+  const Vec3& b = sample.barycentrics;
+  const Vec3 position = patch.vertices[0] * b.x + patch.vertices[1] * b.y + patch.vertices[2] * b.z;
+  return {{position, patch.normal, patch.offset, node.patch, b.y, b.z},
+          dot(point.surface.shading_normal, sample.direction)};
+}
+
+/// Points of a cluster, or of a patch far away, by what they send: the weight is the kernel, 1/m^2.
+Line draw_by_power(const Point& point, std::uint32_t sender, float choice, const Vec2& u) {
   const SenderTree& tree = point.context.tree;
-  const SenderNode& node = tree.nodes[sender.node];
-  float kernels = 0, passed = 0;
+  Line line{sample_sender(tree, sender, choice, u), 0};
+  const Vec3 offset = line.target.position - point.surface.position;
+  const float squared = dot(offset, offset);
+  const float cosine_x = dot(point.surface.shading_normal, offset), cosine_y = -dot(line.target.normal, offset);
+  if (!(cosine_x > 0 && cosine_y > 0)) return line;
+  line.weight = std::min(cosine_x * cosine_y / (kPi * squared * squared), 1 / tree.patches[line.target.patch].area);
+  return line;
+}
+
+float visibility_of(const Point& point, const CriticalSender& sender, const SenderSample& y) {
+  if (sender.resample_visibility == 0) return sender.visibility;
+  if (!(dot(point.surface.geometric_normal, y.position - point.surface.position) > 0)) return 0;
+  ++point.counters.visibility_rays;
+  return point.context.world.caster.transmittance(point.start, y.leave());
+}
+
+Visible trace(const Point& point, const CriticalSender& sender, float form_factor, std::uint32_t count,
+              std::uint32_t dimension) {
+  const SenderNode& node = point.context.tree.nodes[sender.node];
+  std::optional<SphericalTriangle> near;
+  if (form_factor > kNearFormFactor) {
+    const TriangleVertices& v = point.context.tree.patches[node.patch].vertices;
+    near.emplace(to_double(v[0]), to_double(v[1]), to_double(v[2]), to_double(point.surface.position));
+    if (!near->in_range()) near.reset();
+  }
+  float weights = 0, passed = 0;
   Spectrum textured;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const SenderSample y = sample_sender(tree, sender.node, point.sampler.one(dimension + 2 * i),
-                                         point.sampler.two(dimension + 2 * i + 1));
-    const Vec3 offset = y.position - point.surface.position;
-    const float squared = dot(offset, offset);
-    const float cosine_x = dot(point.surface.shading_normal, offset), cosine_y = -dot(y.normal, offset);
-    if (!(cosine_x > 0 && cosine_y > 0)) continue;
-    const float kernel = std::min(cosine_x * cosine_y / (kPi * squared * squared), 1 / tree.patches[y.patch].area);
-    float visible = 0;
-    if (sender.resample_visibility == 0) {
-      visible = sender.visibility;
-    } else if (dot(point.surface.geometric_normal, offset) > 0) {
-      ++point.counters.visibility_rays;
-      visible = point.context.world.caster.transmittance(point.start, y.leave());
-    }
-    kernels += kernel;
-    passed += kernel * visible;
-    textured += emission_ratio(point, node, y) * (kernel * visible);
+    const Vec2 u = point.sampler.two(dimension + 2 * i + 1);
+    const Line line = near ? draw_by_solid_angle(point, node, *near, u)
+                           : draw_by_power(point, sender.node, point.sampler.one(dimension + 2 * i), u);
+    if (!(line.weight > 0)) continue;
+    const float visible = visibility_of(point, sender, line.target);
+    weights += line.weight;
+    passed += line.weight * visible;
+    textured += emission_ratio(point, node, line.target) * (line.weight * visible);
   }
   // Every line fell below a horizon: they say nothing of the rest of the sender.
-  if (!(kernels > 0)) return {0, sender.visibility, Spectrum(sender.visibility)};
-  return {kernels / static_cast<float>(count), passed / kernels, textured / kernels};
+  if (!(weights > 0)) return {0, sender.visibility, Spectrum(sender.visibility)};
+  return {weights / static_cast<float>(count), passed / weights, textured / weights};
 }
 
 /// All light of one critical sender at the point, visibility included.
@@ -108,7 +145,7 @@ Arrived resample(const Point& point, const CriticalSender& sender, std::uint32_t
   if (sender.resample_form_factor == 0) {
     const float cosine = cosine_to(point, sender.direction);
     if (cosine == 0) return {};
-    const Visible visible = trace(point, sender, count, dimension);
+    const Visible visible = trace(point, sender, 0, count, dimension);
     return {sender.direct * visible.textured * cosine, sender.indirect * (visible.share * cosine)};
   }
   float factor = 0;  // 1/m^2
@@ -124,7 +161,7 @@ Arrived resample(const Point& point, const CriticalSender& sender, std::uint32_t
     const float scale = factor * sender.visibility;
     return {node.emitted_power * scale, node.reflected_power * scale};
   }
-  const Visible visible = trace(point, sender, count, dimension);
+  const Visible visible = trace(point, sender, factor * node.area, count, dimension);
   if (!is_patch) {
     factor = visible.kernel;
     point.counters.form_factor_samples += count;

@@ -19,6 +19,8 @@ constexpr int kLobesPerSide = 12;       // octahedral bins of directions
 
 // All senders that a vertex interpolates may together change radiance by this many thresholds.
 constexpr float kMaxTail = 10;
+// An emitter nearer than this many radii of itself and the region counts as near.
+constexpr float kNearReaches = 1.5F;
 // Share of a vertex's samples that goes to its critical senders evenly: one that is weak at the receivers met may be
 // strong at a point beside it.
 constexpr float kEvenShare = 0.2F;
@@ -30,6 +32,8 @@ struct Observation {
   float visibility = 1;              // kernel-weighted
   Vec3 direction{0, 0, 1};
   float angle = 0;                   // mean angular radius of the sender, radians, at most 1
+  float hidden_kernel = 0;           // mean kernel of lines below their receivers' horizons
+  std::uint32_t above = 0;           // lines above their receivers' horizons
 };
 
 ReceiverRegion region_of(const PerspectiveGrid& grid, std::uint32_t vertex) {
@@ -56,8 +60,7 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
   Observation seen;
   seen.kernel_min = std::numeric_limits<float>::infinity();
   const float radius = length(context.tree.nodes[id].bounds.size()) / 2;
-  double kernel = 0, passed = 0, angle = 0;
-  std::uint32_t above = 0;
+  double kernel = 0, hidden = 0, passed = 0, angle = 0;
   Vec3d direction(0, 0, 0);
   for (std::uint32_t i = 0; i < samples; ++i) {
     const ReceiverPoint& x = receivers[i % receivers.size()];
@@ -67,11 +70,15 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
     const float squared = dot(offset, offset);
     // A sender below a receiver's horizon sends it nothing, and says nothing of what its neighbours get.
     const bool is_above = x.normal == Vec3(0, 0, 0) || dot(x.normal, offset) > 0;
-    if (!is_above || !(squared > 0)) continue;
-    ++above;
+    if (!(squared > 0)) continue;
     const float cosine_y = std::max(0.0F, -dot(y.normal, offset));  // times the distance
     // A patch fills at most half of all directions, 2 pi / pi = 2, however close it is.
     const float k = std::min(cosine_y / (kPi * squared * std::sqrt(squared)), 2 / context.tree.patches[y.patch].area);
+    if (!is_above) {
+      hidden += static_cast<double>(k);
+      continue;
+    }
+    ++seen.above;
     seen.kernel_min = std::min(seen.kernel_min, k);
     seen.kernel_max = std::max(seen.kernel_max, k);
     kernel += static_cast<double>(k);
@@ -79,9 +86,13 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
     direction += to_double(normalize(offset)) * static_cast<double>(k);
     if (k > 0) passed += static_cast<double>(k * context.world.caster.transmittance(x.position, y.leave()));
   }
-  if (!(kernel > 0)) return {0, 0, 0, 0, {0, 0, 1}, 0};
-  seen.kernel = static_cast<float>(kernel / above);
-  seen.angle = static_cast<float>(angle / above);
+  seen.hidden_kernel = static_cast<float>(hidden / samples);
+  if (!(kernel > 0)) {
+    seen.kernel_min = seen.visibility = 0;
+    return seen;
+  }
+  seen.kernel = static_cast<float>(kernel / seen.above);
+  seen.angle = static_cast<float>(angle / seen.above);
   seen.visibility = static_cast<float>(passed / kernel);
   seen.direction = to_float(normalize(direction));
   return seen;
@@ -147,8 +158,25 @@ Judged judge(const SenderNode& node, std::uint32_t id, std::uint32_t samples, co
   // Eq. 2 leaves the receiver's cosine out; over a wide sender it varies by about the angle the sender subtends.
   const float kernel_change = std::max(seen.kernel_max - seen.kernel_min, 0.5F * seen.kernel * seen.angle);
   const bool is_partial = seen.visibility > 0 && seen.visibility < 1;
+  if (seen.above == 0) {
+    // No receiver met faces the sender, but a point beside them may (the side of a window bar): unknown, so resampled.
+    const float unknown = radiance * seen.hidden_kernel;
+    return {id, samples, unknown, unknown, unknown};
+  }
   return {id, samples, radiance * kernel_change * seen.visibility, is_partial ? radiance * seen.kernel : 0,
           radiance * std::max(seen.kernel, 0.25F * seen.kernel_max)};
+}
+
+/// A patch that emits beside the region may light a point there in ways that no receiver met shows (the side of a window
+/// bar): always resampled, with the samples that its unoccluded light calls for.
+void distrust_near_emitter(const SenderNode& node, const ReceiverRegion& region, float reflectance, Judged& judged) {
+  const float reach = length(node.bounds.size()) / 2 + region.radius;
+  const bool is_near = length(region.center - node.bounds.center()) < kNearReaches * reach;
+  if (!is_near || is_black(node.emitted_power) || node.patch == kNone) return;
+  const float unoccluded_radiance = reflectance * kInversePi * unoccluded(node, region);
+  judged.form_factor_change = std::max(judged.form_factor_change, unoccluded_radiance);
+  judged.visibility_change = std::max(judged.visibility_change, unoccluded_radiance);
+  judged.weight = std::max(judged.weight, unoccluded_radiance);
 }
 
 /// The change above which a sender is critical: the threshold, or less where many small changes would add up to more than
@@ -195,6 +223,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     const auto samples = std::clamp(static_cast<std::uint32_t>(share * context.settings.vertex_samples), kMinSamples,
                                     kMaxSamples);
     judged.push_back(judge(node, id, samples, observe(context, receivers, id, samples, combine(key_of(id), 1)), reflectance));
+    distrust_near_emitter(node, region, reflectance, judged.back());
   }
   const float threshold = critical_change(judged, context.settings.threshold);
 

@@ -1,0 +1,129 @@
+#include "radiosity/solve.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "support/small_scenes.h"
+
+namespace radfarm {
+namespace {
+
+RadiositySettings quick() {
+  RadiositySettings settings;
+  settings.max_link_error = 1e-3F;
+  settings.min_patch_area = 1e-3F;
+  return settings;
+}
+
+// The budget of a solve: links and residual may misplace light of this share (DESIGN, radiosity).
+constexpr double kBudget = 0.01;
+
+void expect_closed_ledger(const EnergyLedger& energy) {
+  EXPECT_NEAR(energy.absorbed + energy.escaped + energy.truncated, energy.emitted, 1e-9 * energy.emitted);
+  EXPECT_GE(energy.absorbed, 0);
+  EXPECT_GE(energy.truncated, 0);
+}
+
+TEST(SolveRadiosity, AFurnaceAbsorbsWhatItEmits) {
+  const World world(test::own_scene("furnace"));
+  const RadiositySolution solution = solve_radiosity(world, quick(), 1);
+  const double emitted = std::numbers::pi * 24;
+  EXPECT_NEAR(solution.energy.emitted, emitted, 1e-5 * emitted);
+  EXPECT_NEAR(solution.energy.absorbed, emitted, kBudget * emitted);
+  EXPECT_NEAR(solution.energy.escaped, 0, kBudget * emitted);
+  // B = 2 pi, half of it reflected.
+  EXPECT_NEAR(luminance(SpectrumD(solution.reflected_power[0])), emitted, kBudget * emitted);
+  expect_closed_ledger(solution.energy);
+}
+
+TEST(SolveRadiosity, EveryPatchOfAFurnaceReflectsTheSame) {
+  const World world(test::own_scene("furnace"));
+  const RadiositySolution solution = solve_radiosity(world, quick(), 1);
+  double error = 0;
+  for (const std::uint32_t leaf : solution.hierarchy.leaves) {
+    const double density = luminance(SpectrumD(solution.reflected_power[leaf])) /
+                           static_cast<double>(solution.hierarchy.nodes[leaf].area);
+    error = std::max(error, std::fabs(density / std::numbers::pi - 1));
+  }
+  EXPECT_LT(error, 0.1);  // one patch is a twelfth of the box: noise of its own links
+}
+
+TEST(SolveRadiosity, EmittedIsAbsorbedEscapedAndTruncated) {
+  for (const char* name : {"plates", "cornell", "emitters_reflect", "point_light"}) {
+    SCOPED_TRACE(name);
+    const World world(test::own_scene(name));
+    const RadiositySolution solution = solve_radiosity(world, quick(), 2);
+    expect_closed_ledger(solution.energy);
+    EXPECT_LE(solution.energy.truncated, 1.001e-3 * solution.energy.emitted);
+  }
+}
+
+TEST(SolveRadiosity, PlatesGetTheirFormFactor) {
+  const World world(test::own_scene("plates"));
+  const RadiositySolution solution = solve_radiosity(world, quick(), 3);
+  // The emitter is black: the receiver reflects rho F pi L_e once.
+  const double truth = 0.5 * 0.1998248957 * std::numbers::pi;
+  EXPECT_NEAR(luminance(SpectrumD(solution.reflected_power[0])), truth, kBudget * truth);
+}
+
+TEST(SolveRadiosity, NothingLeaksThroughASheet) {
+  const World world(test::own_scene("sheet"));
+  const RadiositySolution solution = solve_radiosity(world, quick(), 1);
+  const Hierarchy& h = solution.hierarchy;
+  const float middle = static_cast<float>(1 - world.scene.origin.x);
+  double lit = 0;
+  for (std::uint32_t i = 0; i < h.nodes.size(); ++i) {
+    if (h.nodes[i].is_cluster()) continue;
+    const bool is_dark = h.nodes[i].bounds.max.x > middle + 1e-4F ||
+                         (h.nodes[i].bounds.min.x > middle - 1e-4F && h.patches[h.nodes[i].patch].normal.x > 0);
+    const double reflected = luminance(SpectrumD(solution.reflected_power[i]));
+    EXPECT_TRUE(!is_dark || reflected == 0) << reflected;
+    lit += reflected;
+  }
+  EXPECT_GT(lit, 0);
+}
+
+TEST(SolveRadiosity, PowersAddUpFromPartsToWholes) {
+  const World world(test::own_scene("cornell"));
+  const RadiositySolution solution = solve_radiosity(world, quick(), 1);
+  ASSERT_EQ(solution.reflected_power.size(), solution.hierarchy.nodes.size());
+  for (std::size_t i = 0; i < solution.hierarchy.nodes.size(); ++i) {
+    const Node& node = solution.hierarchy.nodes[i];
+    if (node.child_count == 0) continue;
+    double sum = 0;
+    for (std::uint32_t c = 0; c < node.child_count; ++c) {
+      sum += luminance(SpectrumD(solution.reflected_power[node.first_child + c]));
+    }
+    EXPECT_NEAR(luminance(SpectrumD(solution.reflected_power[i])), sum, 1e-5 * sum);
+  }
+}
+
+TEST(SolveRadiosity, HasTheSameBitsForAnyNumberOfThreads) {
+  const World world(test::own_scene("cornell"));
+  const auto with = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return solve_radiosity(world, quick(), 7);
+  };
+  const RadiositySolution one = with(1), two = with(2);
+  EXPECT_EQ(one.reflected_power, two.reflected_power);
+  EXPECT_EQ(one.links, two.links);
+  EXPECT_EQ(one.iterations, two.iterations);
+  EXPECT_EQ(one.hierarchy.nodes.size(), two.hierarchy.nodes.size());
+  EXPECT_EQ(one.energy.absorbed, two.energy.absorbed);
+  EXPECT_EQ(one.energy.closure_error, two.energy.closure_error);
+}
+
+TEST(SolveRadiosity, ASceneWithoutLightHasNoSolution) {
+  test::SceneMaker maker;
+  const std::uint32_t grey = maker.material(Spectrum(0.5F));
+  const World world(maker.room({grey, grey, grey, grey, grey, grey}, {0, 0, 0}, {1, 1, 1}).take());
+  const RadiositySolution solution = solve_radiosity(world, quick(), 1);
+  EXPECT_EQ(solution.links, 0U);
+  EXPECT_EQ(solution.energy.emitted, 0);
+}
+
+}  // namespace
+}  // namespace radfarm
