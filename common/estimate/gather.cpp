@@ -169,18 +169,28 @@ Arrived resample(const Point& point, const CriticalSender& sender, std::uint32_t
   return {node.emitted_power * visible.textured * factor, node.reflected_power * (visible.share * factor)};
 }
 
-/// (gather.2) Draws senders by systematic sampling: sender s is taken floor or ceil of N w_s times, N w_s on average.
+/// (gather.2) Draws senders by systematic sampling in proportion to what each is likely to give this very point: N positions,
+/// one step apart from a random start, fall on senders laid end to end by their weights; sender s is taken floor or ceil of
+/// N w_s times, N w_s on average.
 void add_critical(const Point& point, const VertexSenders& senders, Arrived& arrived) {
-  const float budget = point.context.settings.samples_per_gather;
-  float position = -point.sampler.one(kChoiceDimension);
+  thread_local std::vector<float> until;  // scratch: weights added up to and with each sender
+  until.resize(senders.critical.size());
+  float total = 0;
+  for (std::size_t i = 0; i < until.size(); ++i) {
+    total += likely_irradiance(senders.critical[i], point.surface.position, point.surface.shading_normal);
+    until[i] = total;
+  }
+  if (!(total > 0)) return;
+  const float step = total / point.context.settings.samples_per_gather;
   std::uint32_t dimension = kFirstSenderDimension;
-  for (const CriticalSender& sender : senders.critical) {
-    const float expected = budget * sender.weight;
-    const float before = std::floor(position) + 1;
-    position += expected;
-    const auto count = static_cast<std::uint32_t>(std::max(0.0F, std::floor(position) + 1 - before));
-    if (count == 0 || !(expected > 0)) continue;
-    const Arrived one = resample(point, sender, count, dimension);
+  for (float position = point.sampler.one(kChoiceDimension) * step; position < total;) {
+    const auto end = std::upper_bound(until.begin(), until.end(), position);
+    if (end == until.end()) return;
+    const auto i = static_cast<std::size_t>(end - until.begin());
+    std::uint32_t count = 0;
+    for (; position < until[i]; position += step) ++count;
+    const Arrived one = resample(point, senders.critical[i], count, dimension);
+    const float expected = (until[i] - (i > 0 ? until[i - 1] : 0)) / step;
     const float weight = static_cast<float>(count) / expected;
     arrived.direct += one.direct * weight;
     arrived.indirect += one.indirect * weight;

@@ -123,12 +123,6 @@ json energy_json(const EnergyLedger& energy) {
           {"closure_error", energy.closure_error}};
 }
 
-/// The threshold when none is given: a share of the mean radiance of the lit scene.
-float default_threshold(const RadiositySolution& solution, float share) {
-  const double area = static_cast<double>(solution.hierarchy.nodes[0].area) / 2;
-  return share * static_cast<float>(luminance(SpectrumD(solution.reflected_power[0])) / (std::numbers::pi * area));
-}
-
 /// Radiosity, senders and grid of a view that gathers.
 void prepare_gather(Planned& planned, const RenderRequest& request, StageClock& clock, View& view,
                     PreparedFiles& files) {

@@ -27,10 +27,10 @@ struct QualityRow {
 };
 
 constexpr QualityRow kQuality[] = {
-    {16, 4, 512, 32, 1e-3F, 16, 200, 600, 8, .02F},
-    {64, 16, 1024, 64, 2e-5F, 24, 400, 1200, 12, .01F},
-    {256, 64, 2048, 128, 1e-4F, 32, 800, 2400, 16, .005F},
-    {1024, 256, 4096, 256, 3e-5F, 48, 1600, 4800, 24, .002F},
+    {16, 4, 512, 32, 1e-4F, 16, 200, 600, 8, .04F},
+    {64, 16, 1024, 64, 2e-5F, 24, 400, 1200, 12, .02F},
+    {256, 64, 2048, 128, 1e-5F, 32, 800, 2400, 16, .01F},
+    {1024, 256, 4096, 256, 5e-6F, 48, 1600, 4800, 24, .004F},
 };
 
 void resolve_size(const RenderRequest& request, const Camera& camera, Settings& settings) {
@@ -58,6 +58,12 @@ Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& requ
 
 float threshold_share(RenderRequest::Quality quality) {
   return kQuality[static_cast<std::size_t>(quality)].threshold_share;
+}
+
+float default_threshold(const RadiositySolution& solution, float share) {
+  if (solution.hierarchy.nodes.empty()) return 0;
+  const double area = static_cast<double>(solution.hierarchy.nodes[0].area);
+  return share * static_cast<float>(luminance(SpectrumD(solution.reflected_power[0])) / (std::numbers::pi * area));
 }
 
 Settings resolve_settings(const RenderRequest& request, const Camera& camera) {

@@ -3,6 +3,7 @@
 #include "base/status.h"
 #include "estimate/settings.h"
 #include "frame/request.h"
+#include "radiosity/solve.h"
 #include "scene/scene.h"
 
 namespace radfarm {
@@ -18,7 +19,8 @@ Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& requ
 /// here and are set by prepare(). Pure.
 Settings resolve_settings(const RenderRequest& request, const Camera& camera);
 
-/// The default threshold as a share of the scene's mean radiance.
+/// The sender threshold that a quality stands for, as a share of the scene's mean radiance; and the threshold itself.
 float threshold_share(RenderRequest::Quality quality);
+float default_threshold(const RadiositySolution& solution, float share);
 
 }  // namespace radfarm

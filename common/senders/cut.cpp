@@ -21,7 +21,7 @@ float irradiance_change(const SenderNode& node, const ReceiverRegion& region) {
   const float to_center = length(node.bounds.center() - region.center);
   const float distance = std::max(to_center - region.radius / 2, radius / 2);
   if (!(distance > 0)) return 0;  // a point sender at the region's very centre: nothing is left to divide
-  return node.power() / (kPi * distance * distance) * std::min(1.0F, 2 * radius / distance);
+  return node.power / (kPi * distance * distance) * std::min(1.0F, 2 * radius / distance);
 }
 
 }  // namespace

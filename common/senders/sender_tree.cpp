@@ -23,6 +23,7 @@ SenderNode make_node(const RadiositySolution& solution, std::uint32_t id, bool i
   sender.area = node.area;
   sender.emitted_power = node.emitted_power;
   sender.reflected_power = solution.reflected_power[id];
+  sender.power = luminance(sender.emitted_power) + luminance(sender.reflected_power);
   if (is_leaf) {
     const Patch& patch = solution.hierarchy.patches[node.patch];
     sender.patch = static_cast<std::uint32_t>(tree.patches.size());
@@ -103,14 +104,12 @@ SenderSample sample_sender(const SenderTree& tree, std::uint32_t id, float choic
   // Down the tree by power; what is left of the random number chooses at the next level.
   while (tree.nodes[id].patch == kNone) {
     const SenderNode& node = tree.nodes[id];
-    float total = 0;
-    for (std::uint32_t i = 0; i < node.child_count; ++i) total += tree.nodes[node.first_child + i].power();
     std::uint32_t chosen = node.first_child;
-    float left = choice * total;
-    while (chosen + 1 < node.first_child + node.child_count && left >= tree.nodes[chosen].power()) {
-      left -= tree.nodes[chosen++].power();
+    float left = choice * node.power;
+    while (chosen + 1 < node.first_child + node.child_count && left >= tree.nodes[chosen].power) {
+      left -= tree.nodes[chosen++].power;
     }
-    const float power = tree.nodes[chosen].power();
+    const float power = tree.nodes[chosen].power;
     choice = power > 0 ? std::clamp(left / power, 0.0F, 0x1.fffffep-1F) : 0;
     id = chosen;
   }

@@ -24,8 +24,7 @@ struct SenderNode {
   std::uint32_t first_child = kNone;
   std::uint32_t child_count = 0;
   std::uint32_t patch = kNone;    // kNone for clusters and for patches in parts, which have children
-
-  float power() const { return luminance(emitted_power) + luminance(reflected_power); }
+  float power = 0;                // luminance of both powers together, lm
 };
 
 struct SenderPatch {

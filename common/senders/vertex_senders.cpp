@@ -21,9 +21,8 @@ constexpr int kLobesPerSide = 12;       // octahedral bins of directions
 constexpr float kMaxTail = 10;
 // An emitter nearer than this many radii of itself and the region counts as near.
 constexpr float kNearReaches = 1.5F;
-// Share of a vertex's samples that goes to its critical senders evenly: one that is weak at the receivers met may be
-// strong at a point beside it.
-constexpr float kEvenShare = 0.2F;
+// A sender that the vertex's lines saw hidden is sampled as if this share of it were seen.
+constexpr float kLeastPrior = 0.2F;
 
 /// What a handful of lines from receivers to a sender found.
 struct Observation {
@@ -52,7 +51,7 @@ ReceiverRegion region_of(const PerspectiveGrid& grid, std::uint32_t vertex) {
 float unoccluded(const SenderNode& node, const ReceiverRegion& region) {
   const Vec3 offset = region.center - node.bounds.center();
   const float reach = std::max(length(offset), length(node.bounds.size()) / 2);
-  return node.power() / (kPi * std::max(reach * reach, 1e-30F));
+  return node.power / (kPi * std::max(reach * reach, 1e-30F));
 }
 
 Observation observe(const VertexContext& context, const std::vector<ReceiverPoint>& receivers, std::uint32_t id,
@@ -149,26 +148,26 @@ struct Judged {
   std::uint32_t samples = 0;
   float form_factor_change = 0;  // (senders.2)
   float visibility_change = 0;   // (senders.3)
-  float weight = 0;              // unoccluded radiance
+  float prior = 1;               // share of the sender expected to be seen
   float change() const { return std::max(form_factor_change, visibility_change); }
 };
 
 Judged judge(const SenderNode& node, std::uint32_t id, std::uint32_t samples, const Observation& seen, float reflectance) {
-  const float radiance = reflectance * kInversePi * node.power();
+  const float radiance = reflectance * kInversePi * node.power;
   // Eq. 2 leaves the receiver's cosine out; over a wide sender it varies by about the angle the sender subtends.
   const float kernel_change = std::max(seen.kernel_max - seen.kernel_min, 0.5F * seen.kernel * seen.angle);
   const bool is_partial = seen.visibility > 0 && seen.visibility < 1;
   if (seen.above == 0) {
     // No receiver met faces the sender, but a point beside them may (the side of a window bar): unknown, so resampled.
     const float unknown = radiance * seen.hidden_kernel;
-    return {id, samples, unknown, unknown, unknown};
+    return {id, samples, unknown, unknown, 1};
   }
   return {id, samples, radiance * kernel_change * seen.visibility, is_partial ? radiance * seen.kernel : 0,
-          radiance * std::max(seen.kernel, 0.25F * seen.kernel_max)};
+          kLeastPrior + (1 - kLeastPrior) * seen.visibility};
 }
 
 /// A patch that emits beside the region may light a point there in ways that no receiver met shows (the side of a window
-/// bar): always resampled, with the samples that its unoccluded light calls for.
+/// bar): always resampled.
 void distrust_near_emitter(const SenderNode& node, const ReceiverRegion& region, float reflectance, Judged& judged) {
   const float reach = length(node.bounds.size()) / 2 + region.radius;
   const bool is_near = length(region.center - node.bounds.center()) < kNearReaches * reach;
@@ -176,7 +175,7 @@ void distrust_near_emitter(const SenderNode& node, const ReceiverRegion& region,
   const float unoccluded_radiance = reflectance * kInversePi * unoccluded(node, region);
   judged.form_factor_change = std::max(judged.form_factor_change, unoccluded_radiance);
   judged.visibility_change = std::max(judged.visibility_change, unoccluded_radiance);
-  judged.weight = std::max(judged.weight, unoccluded_radiance);
+  judged.prior = 1;
 }
 
 /// The change above which a sender is critical: the threshold, or less where many small changes would add up to more than
@@ -205,6 +204,22 @@ void measure(const SenderNode& node, const Observation& seen, CriticalSender& se
 
 }  // namespace
 
+float likely_irradiance(const CriticalSender& sender, const Vec3& position, const Vec3& normal) {
+  const Vec3 offset = sender.center - position;
+  const float distance = std::max(length(offset), sender.radius);
+  if (!(distance > 0)) return 0;
+  // Some point of the sphere stands this high above the receiver's horizon; the sender's own cosine likewise.
+  const float cosine_x = std::min(1.0F, (dot(normal, offset) + sender.radius) / distance);
+  if (!(cosine_x > 0)) return 0;
+  float cosine_y = 1;
+  if (sender.normal != Vec3(0, 0, 0)) {
+    const float height = -dot(sender.normal, offset);
+    if (!(height > 0)) return 0;  // behind the plane of the patch
+    cosine_y = std::min(1.0F, height / distance + 0.1F);
+  }
+  return sender.power * sender.prior * cosine_x * cosine_y / (kPi * distance * distance);
+}
+
 VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex) {
   const ReceiverRegion region = region_of(context.grid, vertex);
   const std::vector<ReceiverPoint> receivers = receivers_around(context.grid, context.receivers, vertex, kReceivers);
@@ -229,14 +244,17 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
 
   VertexSenders result;
   LobeSums lobes;
-  double weights = 0;
   for (const Judged& sender : judged) {
     const SenderNode& node = context.tree.nodes[sender.node];
     CriticalSender critical;
     critical.node = sender.node;
     critical.resample_form_factor = sender.form_factor_change > threshold ? 1 : 0;
     critical.resample_visibility = sender.visibility_change > threshold ? 1 : 0;
-    critical.weight = sender.weight;
+    critical.center = node.bounds.center();
+    critical.radius = length(node.bounds.size()) / 2;
+    if (node.patch != kNone) critical.normal = context.tree.patches[node.patch].normal;
+    critical.power = node.power;
+    critical.prior = sender.prior;
     const bool needs_both = critical.resample_form_factor != 0 && critical.resample_visibility != 0;
     if (!needs_both) {
       measure(node, observe(context, receivers, sender.node, sender.samples, combine(key_of(sender.node), 2)), critical);
@@ -245,13 +263,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
       lobes.add(critical.direction, critical.direct * critical.visibility, critical.indirect * critical.visibility);
     } else {
       result.critical.push_back(critical);
-      weights += static_cast<double>(critical.weight);
     }
-  }
-  const float even = 1 / static_cast<float>(result.critical.size());
-  for (CriticalSender& sender : result.critical) {
-    const auto share = static_cast<float>(weights > 0 ? static_cast<double>(sender.weight) / weights : 0);
-    sender.weight = (1 - kEvenShare) * share + kEvenShare * even;
   }
   result.lobes = lobes.lobes();
   return result;

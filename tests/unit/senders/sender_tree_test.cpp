@@ -1,0 +1,93 @@
+#include "senders/sender_tree.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "unit/senders/solved_scene.h"
+
+namespace radfarm {
+namespace {
+
+using test::SolvedScene;
+
+float power_of(const SenderNode& node) { return luminance(node.emitted_power) + luminance(node.reflected_power); }
+
+TEST(SenderTree, HasTheSolutionsPowerAtItsRootAndInItsLeaves) {
+  for (const char* name : {"cornell", "emitters_reflect", "point_light", "sheet"}) {
+    const SolvedScene scene(name);
+    const RadiositySolution& solution = scene.solution;
+    const double truth = luminance(SpectrumD(solution.hierarchy.nodes[0].emitted_power)) +
+                         luminance(SpectrumD(solution.reflected_power[0]));
+    double leaves = 0;
+    for (const SenderNode& node : scene.tree.nodes) {
+      if (node.patch != kNone) leaves += static_cast<double>(power_of(node));
+    }
+    // Sums of thousands of floats.
+    EXPECT_NEAR(static_cast<double>(power_of(scene.tree.nodes.at(0))), truth, 1e-4 * truth) << name;
+    EXPECT_NEAR(leaves, truth, 1e-4 * truth) << name;
+  }
+}
+
+TEST(SenderTree, HasOnlyNodesThatSend) {
+  const SolvedScene scene("room");
+  for (std::uint32_t i = 0; i < scene.tree.nodes.size(); ++i) {
+    const SenderNode& node = scene.tree.nodes[i];
+    EXPECT_GT(power_of(node), 0);
+    EXPECT_EQ(node.patch == kNone, node.child_count > 0);
+    if (node.child_count == 0) continue;
+    EXPECT_GT(node.first_child, i);
+    double sum = 0;
+    for (std::uint32_t c = 0; c < node.child_count; ++c) {
+      sum += static_cast<double>(power_of(scene.tree.nodes[node.first_child + c]));
+    }
+    EXPECT_NEAR(static_cast<double>(power_of(node)), sum, 1e-4 * sum);
+  }
+}
+
+TEST(SenderTree, RoundTripKeepsEveryByte) {
+  const SolvedScene scene("cornell");
+  const std::vector<std::byte> bytes = encode(scene.tree);
+  const Result<SenderTree> again = decode_sender_tree(bytes);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->nodes.size(), scene.tree.nodes.size());
+  EXPECT_EQ(encode(*again), bytes);
+}
+
+TEST(SenderTree, HostileBytesGiveDataLossOrASoundTree) {
+  const SolvedScene scene("plates");
+  const std::vector<std::byte> bytes = encode(scene.tree);
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 64) {
+    const Result<SenderTree> cut = decode_sender_tree(std::span(bytes).first(size));
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().code, Code::kDataLoss);
+  }
+  RandomSequence random(1);
+  for (int n = 0; n < 3000; ++n) {
+    std::vector<std::byte> damaged = bytes;
+    damaged[random.bits() % damaged.size()] ^= static_cast<std::byte>(1 + random.bits() % 255);
+    const Result<SenderTree> tree = decode_sender_tree(damaged);
+    if (!tree) continue;
+    for (std::uint32_t i = 0; i < tree->nodes.size(); ++i) {
+      const SenderNode& node = tree->nodes[i];
+      EXPECT_TRUE(node.child_count == 0 ||
+                  (node.first_child > i && node.first_child + node.child_count <= tree->nodes.size()));
+    }
+    if (!tree->nodes.empty()) (void)sample_sender(*tree, 0, 0.5F, {0.5F, 0.5F});
+  }
+}
+
+TEST(SenderTree, SamplesLieOnTheirPatch) {
+  const SolvedScene scene("cornell");
+  RandomSequence random(2);
+  for (int n = 0; n < 5000; ++n) {
+    const SenderSample s = sample_sender(scene.tree, 0, random.uniform(), {random.uniform(), random.uniform()});
+    const SenderPatch& patch = scene.tree.patches.at(s.patch);
+    const TriangleVertices& v = patch.vertices;
+    EXPECT_LT(length(v[0] * (1 - s.u - s.v) + v[1] * s.u + v[2] * s.v - s.position), 1e-5F);
+    EXPECT_EQ(s.normal, patch.normal);
+    EXPECT_TRUE(s.u >= 0 && s.v >= 0 && s.u + s.v <= 1 + 1e-6F);
+  }
+}
+
+}  // namespace
+}  // namespace radfarm
