@@ -68,11 +68,10 @@ Spectrum emission_ratio(const Point& point, const SenderNode& node, const Sender
   return {mean.r > 0 ? here.r / mean.r : 0, mean.g > 0 ? here.g / mean.g : 0, mean.b > 0 ? here.b / mean.b : 0};
 }
 
-/// What `count` lines to a sender bring: kernel-weighted visibility, and its product with the emission's texture.
+/// What lines to a sender bring: its visible share, and the product of that with the emission's texture.
 struct Visible {
-  float kernel = 0;      // clusters: mean of cos_x cos_y / (pi r^2), 1/m^2
-  float share = 0;       // sum k V / sum k
-  Spectrum textured;     // sum k V ratio / sum k
+  float share = 0;       // sum w V / sum w
+  Spectrum textured;     // sum w V ratio / sum w
 };
 
 /// A point of the sender and the weight, up to a common factor, with which it stands for what the receiver gets.
@@ -111,9 +110,10 @@ float visibility_of(const Point& point, const CriticalSender& sender, const Send
   return point.context.world.caster.transmittance(point.start, y.leave());
 }
 
-Visible trace(const Point& point, const CriticalSender& sender, float form_factor, std::uint32_t count,
-              std::uint32_t dimension) {
-  const SenderNode& node = point.context.tree.nodes[sender.node];
+/// Visibility of `node` by `count` lines. `form_factor` is the patch's, 0 for clusters.
+Visible trace(const Point& point, const CriticalSender& sender, std::uint32_t node_id, float form_factor,
+              std::uint32_t count, std::uint32_t dimension) {
+  const SenderNode& node = point.context.tree.nodes[node_id];
   std::optional<SphericalTriangle> near;
   if (form_factor > kNearFormFactor) {
     const TriangleVertices& v = point.context.tree.patches[node.patch].vertices;
@@ -125,7 +125,7 @@ Visible trace(const Point& point, const CriticalSender& sender, float form_facto
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec2 u = point.sampler.two(dimension + 2 * i + 1);
     const Line line = near ? draw_by_solid_angle(point, node, *near, u)
-                           : draw_by_power(point, sender.node, point.sampler.one(dimension + 2 * i), u);
+                           : draw_by_power(point, node_id, point.sampler.one(dimension + 2 * i), u);
     if (!(line.weight > 0)) continue;
     const float visible = visibility_of(point, sender, line.target);
     weights += line.weight;
@@ -133,40 +133,53 @@ Visible trace(const Point& point, const CriticalSender& sender, float form_facto
     textured += emission_ratio(point, node, line.target) * (line.weight * visible);
   }
   // Every line fell below a horizon: they say nothing of the rest of the sender.
-  if (!(weights > 0)) return {0, sender.visibility, Spectrum(sender.visibility)};
-  return {weights / static_cast<float>(count), passed / weights, textured / weights};
+  if (!(weights > 0)) return {sender.visibility, Spectrum(sender.visibility)};
+  return {passed / weights, textured / weights};
+}
+
+/// All light of one patch at the point: its exact form factor, its visibility by `count` lines. (gather.3)
+Arrived from_patch(const Point& point, const CriticalSender& sender, std::uint32_t node_id, std::uint32_t count,
+                   std::uint32_t dimension) {
+  const SenderTree& tree = point.context.tree;
+  const SenderNode& node = tree.nodes[node_id];
+  const SenderPatch& patch = tree.patches[node.patch];
+  if (dot(patch.normal, point.surface.position - patch.vertices[0]) <= 0) return {};
+  const float form_factor =
+      fast_polygon_form_factor(patch.vertices, point.surface.position, point.surface.shading_normal);
+  ++point.counters.form_factor_samples;
+  if (!(form_factor > 0)) return {};
+  const float factor = form_factor / node.area;
+  if (sender.resample_visibility == 0 && patch.is_textured_emitter == 0) {
+    const float scale = factor * sender.visibility;
+    return {node.emitted_power * scale, node.reflected_power * scale};
+  }
+  const Visible visible = trace(point, sender, node_id, form_factor, count, dimension);
+  return {node.emitted_power * visible.textured * factor, node.reflected_power * (visible.share * factor)};
 }
 
 /// All light of one critical sender at the point, visibility included.
 Arrived resample(const Point& point, const CriticalSender& sender, std::uint32_t count, std::uint32_t dimension) {
   const SenderTree& tree = point.context.tree;
-  const SenderNode& node = tree.nodes[sender.node];
-  const bool is_patch = node.patch != kNone;
   if (sender.resample_form_factor == 0) {
     const float cosine = cosine_to(point, sender.direction);
     if (cosine == 0) return {};
-    const Visible visible = trace(point, sender, 0, count, dimension);
+    const Visible visible = trace(point, sender, sender.node, 0, count, dimension);
     return {sender.direct * visible.textured * cosine, sender.indirect * (visible.share * cosine)};
   }
-  float factor = 0;  // 1/m^2
-  if (is_patch) {
-    const SenderPatch& patch = tree.patches[node.patch];
-    if (dot(patch.normal, point.surface.position - patch.vertices[0]) <= 0) return {};
-    factor = fast_polygon_form_factor(patch.vertices, point.surface.position, point.surface.shading_normal) / node.area;
-    ++point.counters.form_factor_samples;
-    if (!(factor > 0)) return {};
+  if (tree.nodes[sender.node].patch != kNone) return from_patch(point, sender, sender.node, count, dimension);
+  // A cluster: as many of its patches as it has samples, each drawn for this point, each with one line.
+  Arrived sum;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float choice = point.sampler.one(dimension + 2 * i);
+    const DrawnPatch drawn =
+        draw_patch(tree, sender.node, point.surface.position, point.surface.shading_normal, choice);
+    if (!(drawn.probability > 0)) continue;
+    const Arrived one = from_patch(point, sender, drawn.node, 1, dimension + 2 * count + 2 * i);
+    const float weight = 1 / (drawn.probability * static_cast<float>(count));
+    sum.direct += one.direct * weight;
+    sum.indirect += one.indirect * weight;
   }
-  const bool needs_lines = sender.resample_visibility != 0 || !is_patch || tree.patches[node.patch].is_textured_emitter != 0;
-  if (!needs_lines) {
-    const float scale = factor * sender.visibility;
-    return {node.emitted_power * scale, node.reflected_power * scale};
-  }
-  const Visible visible = trace(point, sender, factor * node.area, count, dimension);
-  if (!is_patch) {
-    factor = visible.kernel;
-    point.counters.form_factor_samples += count;
-  }
-  return {node.emitted_power * visible.textured * factor, node.reflected_power * (visible.share * factor)};
+  return sum;
 }
 
 /// (gather.2) Draws senders by systematic sampling in proportion to what each is likely to give this very point: N positions,
@@ -177,7 +190,8 @@ void add_critical(const Point& point, const VertexSenders& senders, Arrived& arr
   until.resize(senders.critical.size());
   float total = 0;
   for (std::size_t i = 0; i < until.size(); ++i) {
-    total += likely_irradiance(senders.critical[i], point.surface.position, point.surface.shading_normal);
+    const CriticalSender& sender = senders.critical[i];
+    total += sender.prior * likely_irradiance(sender.outline, point.surface.position, point.surface.shading_normal);
     until[i] = total;
   }
   if (!(total > 0)) return;
@@ -194,7 +208,7 @@ void add_critical(const Point& point, const VertexSenders& senders, Arrived& arr
     const float weight = static_cast<float>(count) / expected;
     arrived.direct += one.direct * weight;
     arrived.indirect += one.indirect * weight;
-    dimension += 2 * count;
+    dimension += 4 * count;
   }
 }
 

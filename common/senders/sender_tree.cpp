@@ -49,7 +49,7 @@ bool is_sound(const SenderTree& tree) {
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const SenderNode& node = tree.nodes[i];
     const bool has_children = node.child_count > 0;
-    if (has_children && (node.first_child <= i || node.child_count > tree.nodes.size() ||
+    if (has_children && (node.first_child <= i || node.child_count > 4 || node.child_count > tree.nodes.size() ||
                          node.first_child > tree.nodes.size() - node.child_count)) {
       return false;
     }

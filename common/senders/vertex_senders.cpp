@@ -204,22 +204,6 @@ void measure(const SenderNode& node, const Observation& seen, CriticalSender& se
 
 }  // namespace
 
-float likely_irradiance(const CriticalSender& sender, const Vec3& position, const Vec3& normal) {
-  const Vec3 offset = sender.center - position;
-  const float distance = std::max(length(offset), sender.radius);
-  if (!(distance > 0)) return 0;
-  // Some point of the sphere stands this high above the receiver's horizon; the sender's own cosine likewise.
-  const float cosine_x = std::min(1.0F, (dot(normal, offset) + sender.radius) / distance);
-  if (!(cosine_x > 0)) return 0;
-  float cosine_y = 1;
-  if (sender.normal != Vec3(0, 0, 0)) {
-    const float height = -dot(sender.normal, offset);
-    if (!(height > 0)) return 0;  // behind the plane of the patch
-    cosine_y = std::min(1.0F, height / distance + 0.1F);
-  }
-  return sender.power * sender.prior * cosine_x * cosine_y / (kPi * distance * distance);
-}
-
 VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex) {
   const ReceiverRegion region = region_of(context.grid, vertex);
   const std::vector<ReceiverPoint> receivers = receivers_around(context.grid, context.receivers, vertex, kReceivers);
@@ -250,10 +234,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     critical.node = sender.node;
     critical.resample_form_factor = sender.form_factor_change > threshold ? 1 : 0;
     critical.resample_visibility = sender.visibility_change > threshold ? 1 : 0;
-    critical.center = node.bounds.center();
-    critical.radius = length(node.bounds.size()) / 2;
-    if (node.patch != kNone) critical.normal = context.tree.patches[node.patch].normal;
-    critical.power = node.power;
+    critical.outline = outline_of(context.tree, sender.node);
     critical.prior = sender.prior;
     const bool needs_both = critical.resample_form_factor != 0 && critical.resample_visibility != 0;
     if (!needs_both) {

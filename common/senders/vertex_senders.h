@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "senders/cut.h"
+#include "senders/likely.h"
 #include "senders/receivers.h"
 
 namespace radfarm {
@@ -24,18 +25,9 @@ struct CriticalSender {
   Spectrum direct;                         // unoccluded irradiance at normal incidence, lux
   Spectrum indirect;
   float visibility = 1;
-  // What a point needs to judge how much the sender may give it, before anything is sampled:
-  Vec3 center{0, 0, 0};
-  float radius = 0;                        // of a sphere around the center that holds the sender, m
-  Vec3 normal{0, 0, 0};                    // unit for patches; zero for clusters, which have no single one
-  float power = 0;                         // luminance, lm
-  float prior = 1;                         // share of `power` expected to be visible, never near 0
+  SenderOutline outline;
+  float prior = 1;                         // share of the sender expected to be visible, never near 0
 };
-
-/// The irradiance (luminance, lux) that the sender is likely to give a point with this normal, unoccluded, times `prior`: what
-/// gathering samples in proportion to. Within a small factor of the truth wherever the sender can be seen; 0 only where
-/// it certainly gives nothing.
-float likely_irradiance(const CriticalSender& sender, const Vec3& position, const Vec3& normal);
 
 /// What one grid vertex knows of all light: complete by itself. E_v(n) = sum of lobes + sum of critical senders.
 struct VertexSenders {

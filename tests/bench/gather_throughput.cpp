@@ -45,7 +45,7 @@ std::vector<VisibilityRay> draw_rays(const GatherContext& context, const Film& f
         std::vector<double> weights;
         for (const CriticalSender& c : senders.critical) {
           weights.push_back(c.resample_visibility != 0
-                                ? static_cast<double>(likely_irradiance(c, point.position, point.shading_normal))
+                                ? static_cast<double>(c.prior * likely_irradiance(c.outline, point.position, point.shading_normal))
                                 : 0);
         }
         const DiscreteDistribution choice(weights);

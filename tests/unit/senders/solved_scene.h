@@ -41,8 +41,4 @@ struct SolvedScene {
   SenderSettings settings;
 };
 
-inline bool operator==(const Lobe& a, const Lobe& b) {
-  return a.direction == b.direction && a.direct == b.direct && a.indirect == b.indirect;
-}
-
 }  // namespace radfarm::test
