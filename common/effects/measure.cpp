@@ -1,6 +1,7 @@
 #include "effects/measure.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -10,7 +11,8 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kProbes = 4096;
+constexpr std::uint32_t kProbes = 1024;
+constexpr int kBounces = 8;
 constexpr std::uint64_t kProbeKey = 0x70726f6265;  // "probe"
 
 void count_materials(const Scene& scene, Measurements& m) {
@@ -28,29 +30,44 @@ void count_materials(const Scene& scene, Measurements& m) {
   }
 }
 
-void probe_openness(const World& world, std::uint64_t seed, Measurements& m) {
-  std::vector<double> areas;
-  std::vector<Hit> triangles;
-  for (std::uint32_t i = 0; i < world.scene.instances.size(); ++i) {
-    const std::size_t count = world.scene.meshes[world.scene.instances[i].mesh].triangles.size();
-    for (std::uint32_t t = 0; t < count; ++t) {
-      const TriangleVertices v = world.surfaces.triangle(i, t);
-      areas.push_back(length(cross(to_double(v[1]) - to_double(v[0]), to_double(v[2]) - to_double(v[0]))));
-      triangles.push_back({i, t, 0, 0, 0});
-    }
+/// A ray that leaves an emitter, chosen as next-event estimation chooses it. Nothing for directional lights: their light
+/// comes from outside.
+std::optional<Ray> leave_emitter(const World& world, RandomSequence& random) {
+  const std::size_t index = world.emitters.choice.sample(random.uniform_double()).index;
+  if (index >= world.emitters.triangles.size()) {
+    const PunctualLight& light = world.emitters.punctual[index - world.emitters.triangles.size()];
+    if (light.kind == PunctualLight::Kind::kDirectional) return std::nullopt;
+    return Ray{light.position, sample_uniform_sphere({random.uniform(), random.uniform()})};
   }
-  if (triangles.empty()) return;
-  const DiscreteDistribution by_area(areas);
+  const EmissiveTriangle& t = world.emitters.triangles[index];
+  const Vec3 b = sample_uniform_triangle({random.uniform(), random.uniform()});
+  const bool is_mirrored = world.surfaces.is_mirrored(t.instance);
+  SurfacePoint point = world.surfaces.at({t.instance, t.triangle, is_mirrored ? b.z : b.y, is_mirrored ? b.y : b.z, 0});
+  if (t.both_sides && random.uniform() < 0.5F) face(point, -point.geometric_normal);
+  const Vec3 local = sample_cosine_hemisphere({random.uniform(), random.uniform()});
+  return Ray{leave(point), normalize(Frame(point.geometric_normal).to_world(local))};
+}
+
+/// Follows light from an emitter over a few diffuse bounces: true when it meets nothing on the way.
+bool walk_escapes(const World& world, RandomSequence& random) {
+  std::optional<Ray> ray = leave_emitter(world, random);
+  if (!ray) return true;
+  for (int bounce = 0; bounce < kBounces; ++bounce) {
+    const auto hit = world.caster.closest(*ray, random.bits());
+    if (!hit) return true;
+    SurfacePoint point = world.surfaces.at(*hit);
+    face(point, -ray->direction);
+    const Vec3 local = sample_cosine_hemisphere({random.uniform(), random.uniform()});
+    ray = Ray{leave(point), normalize(Frame(point.geometric_normal).to_world(local))};
+  }
+  return false;
+}
+
+void probe_openness(const World& world, std::uint64_t seed, Measurements& m) {
+  if (world.emitters.size() == 0) return;
   for (m.probes = 0; m.probes < kProbes; ++m.probes) {
     RandomSequence random(combine(seed, kProbeKey, m.probes));
-    Hit hit = triangles[by_area.sample(random.uniform()).index];
-    const Vec3 b = sample_uniform_triangle({random.uniform(), random.uniform()});
-    hit.u = b.y, hit.v = b.z;
-    SurfacePoint point = world.surfaces.at(hit);
-    if (random.uniform() < 0.5F) face(point, -point.geometric_normal);
-    const Vec3 local = sample_cosine_hemisphere({random.uniform(), random.uniform()});
-    const Ray ray{leave(point), normalize(Frame(point.geometric_normal).to_world(local))};
-    if (!world.caster.closest(ray, random.bits())) ++m.escaped;
+    if (walk_escapes(world, random)) ++m.escaped;
   }
 }
 

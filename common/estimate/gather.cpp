@@ -18,6 +18,8 @@ constexpr std::uint32_t kFirstSenderDimension = 16;
 // More punctual lights than this are sampled by their unoccluded irradiance at the point instead of all traced.
 constexpr std::size_t kMaxTracedPunctual = 8;
 
+// Lines that fall below a horizon are drawn again this often: the rest of the sender is what visibility is wanted of.
+constexpr std::uint32_t kAttempts = 8;
 // A patch with a larger form factor is drawn by solid angle.
 constexpr float kNearFormFactor = 2e-3F;
 
@@ -110,6 +112,13 @@ float visibility_of(const Point& point, const CriticalSender& sender, const Send
   return point.context.world.caster.transmittance(point.start, y.leave());
 }
 
+/// Random numbers of the first attempt are stratified over the pixel's samples, those of further ones are not.
+Vec2 draw_again(const Point& point, std::uint32_t dimension, std::uint32_t attempt) {
+  if (attempt == 0) return point.sampler.two(dimension);
+  const std::uint64_t key = combine(point.sampler.key(dimension), attempt);
+  return {to_unit_float(combine(key, 1)), to_unit_float(combine(key, 2))};
+}
+
 /// Visibility of `node` by `count` lines. `form_factor` is the patch's, 0 for clusters.
 Visible trace(const Point& point, const CriticalSender& sender, std::uint32_t node_id, float form_factor,
               std::uint32_t count, std::uint32_t dimension) {
@@ -123,9 +132,12 @@ Visible trace(const Point& point, const CriticalSender& sender, std::uint32_t no
   float weights = 0, passed = 0;
   Spectrum textured;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec2 u = point.sampler.two(dimension + 2 * i + 1);
-    const Line line = near ? draw_by_solid_angle(point, node, *near, u)
-                           : draw_by_power(point, node_id, point.sampler.one(dimension + 2 * i), u);
+    Line line;
+    for (std::uint32_t attempt = 0; attempt < kAttempts && !(line.weight > 0); ++attempt) {
+      const Vec2 u = draw_again(point, dimension + 2 * i + 1, attempt);
+      line = near ? draw_by_solid_angle(point, node, *near, u)
+                  : draw_by_power(point, node_id, draw_again(point, dimension + 2 * i, attempt).x, u);
+    }
     if (!(line.weight > 0)) continue;
     const float visible = visibility_of(point, sender, line.target);
     weights += line.weight;

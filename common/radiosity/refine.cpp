@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::uint64_t kFinalKey = 0x66696e616c;  // "final"
 
+constexpr float kLeastReflectance = 0.5F;
+
 /// What one round of refinement works with.
 struct Round {
   const World& world;
@@ -31,11 +33,13 @@ double sender_reflects(const Round& round, const Link& link) {
   return is_punctual(link.sender) ? 0 : static_cast<double>(luminance(round.reflected[link.sender]));
 }
 
-/// Reflected power that the link may misplace, lm: rho A_r cos F D P.
+/// Power that the link may misplace, lm: rho A_r F D P. Light that a dark receiver swallows is light that others do not
+/// get, all the more since what is sent is normalised: rho counts as at least kLeastReflectance.
 double misplaced_power(const Round& round, const Link& link) {
   const Node& receiver = round.hierarchy.nodes[link.receiver];
-  const double absorbs = static_cast<double>(max_component(receiver.reflectance) * receiver.area);
-  return absorbs * (static_cast<double>(link.emitted_error) * sender_emits(round, link) +
+  const float reflectance = std::max(max_component(receiver.reflectance), kLeastReflectance);
+  const auto receives = static_cast<double>(reflectance * receiver.area);
+  return receives * (static_cast<double>(link.emitted_error) * sender_emits(round, link) +
                     static_cast<double>(link.reflected_error) * sender_reflects(round, link));
 }
 

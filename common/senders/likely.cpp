@@ -16,23 +16,29 @@ constexpr std::uint32_t kMaxChildren = 4;
 SenderOutline outline_of(const SenderTree& tree, std::uint32_t id) {
   const SenderNode& node = tree.nodes[id];
   const Vec3 normal = node.patch == kNone ? Vec3(0, 0, 0) : tree.patches[node.patch].normal;
-  return {node.bounds.center(), length(node.bounds.size()) / 2, normal, node.power};
+  const Vec3 half = node.bounds.size() * 0.5F;
+  return {node.bounds.center(), half, length(half), node.area, normal, node.power};
 }
 
 float likely_irradiance(const SenderOutline& sender, const Vec3& position, const Vec3& normal) {
   const Vec3 offset = sender.center - position;
   const float distance = std::max(length(offset), sender.radius);
   if (!(distance > 0)) return 0;
-  // Some point of the sphere stands this high above the receiver's horizon; the sender's own cosine likewise.
+  // Some point of the sphere stands this high above the receiver's horizon.
   const float cosine_x = std::min(1.0F, (dot(normal, offset) + sender.radius) / distance);
   if (!(cosine_x > 0)) return 0;
+  const auto beyond = [](float to_center, float half) { return std::max(0.0F, std::fabs(to_center) - half); };
+  const Vec3 gap(beyond(offset.x, sender.half.x), beyond(offset.y, sender.half.y), beyond(offset.z, sender.half.z));
+  const float nearest = length(gap);
   float cosine_y = 1;
   if (sender.normal != Vec3(0, 0, 0)) {
     const float height = -dot(sender.normal, offset);
     if (!(height + 1e-4F * sender.radius > 0)) return 0;  // behind the plane of the patch
-    cosine_y = std::clamp(height / distance + 0.1F, 0.0F, 1.0F);
+    cosine_y = nearest > height ? std::max(height / nearest, 0.02F) : 1;
   }
-  return sender.power * cosine_x * cosine_y / (kPi * distance * distance);
+  // However near, a sender of even radiosity gives no more than P / A.
+  const float reach = std::max(nearest * nearest, std::min(sender.radius * sender.radius, sender.area / kPi));
+  return sender.power * cosine_x * cosine_y / (kPi * reach);
 }
 
 DrawnPatch draw_patch(const SenderTree& tree, std::uint32_t id, const Vec3& position, const Vec3& normal, float choice) {

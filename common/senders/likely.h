@@ -9,7 +9,9 @@ namespace radfarm {
 /// What a point needs to know of a sender to judge how much it may give, before anything is sampled.
 struct SenderOutline {
   Vec3 center{0, 0, 0};
+  Vec3 half{0, 0, 0};       // of the bounding box's size, m
   float radius = 0;         // of a sphere around the center that holds the sender, m
+  float area = 0;           // m^2
   Vec3 normal{0, 0, 0};     // unit for patches; zero for clusters, which have no single one
   float power = 0;          // luminance, lm
 };

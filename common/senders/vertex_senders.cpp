@@ -19,8 +19,6 @@ constexpr int kLobesPerSide = 12;       // octahedral bins of directions
 
 // All senders that a vertex interpolates may together change radiance by this many thresholds.
 constexpr float kMaxTail = 10;
-// An emitter nearer than this many radii of itself and the region counts as near.
-constexpr float kNearReaches = 1.5F;
 // A sender that the vertex's lines saw hidden is sampled as if this share of it were seen.
 constexpr float kLeastPrior = 0.2F;
 
@@ -149,6 +147,7 @@ struct Judged {
   float form_factor_change = 0;  // (senders.2)
   float visibility_change = 0;   // (senders.3)
   float prior = 1;               // share of the sender expected to be seen
+  float visibility = 1;          // as the deciding samples saw it
   float change() const { return std::max(form_factor_change, visibility_change); }
 };
 
@@ -160,18 +159,16 @@ Judged judge(const SenderNode& node, std::uint32_t id, std::uint32_t samples, co
   if (seen.above == 0) {
     // No receiver met faces the sender, but a point beside them may (the side of a window bar): unknown, so resampled.
     const float unknown = radiance * seen.hidden_kernel;
-    return {id, samples, unknown, unknown, 1};
+    return {id, samples, unknown, unknown, 1, 0};
   }
   return {id, samples, radiance * kernel_change * seen.visibility, is_partial ? radiance * seen.kernel : 0,
-          kLeastPrior + (1 - kLeastPrior) * seen.visibility};
+          kLeastPrior + (1 - kLeastPrior) * seen.visibility, seen.visibility};
 }
 
-/// A patch that emits beside the region may light a point there in ways that no receiver met shows (the side of a window
-/// bar): always resampled.
-void distrust_near_emitter(const SenderNode& node, const ReceiverRegion& region, float reflectance, Judged& judged) {
-  const float reach = length(node.bounds.size()) / 2 + region.radius;
-  const bool is_near = length(region.center - node.bounds.center()) < kNearReaches * reach;
-  if (!is_near || is_black(node.emitted_power) || node.patch == kNone) return;
+/// Direct light makes the contrasts that people see, and an emitter that all receivers met see may be hidden from a point
+/// beside them: what emits is interpolated only where its unoccluded light is below the threshold.
+void distrust_emitter(const SenderNode& node, const ReceiverRegion& region, float reflectance, Judged& judged) {
+  if (is_black(node.emitted_power)) return;
   const float unoccluded_radiance = reflectance * kInversePi * unoccluded(node, region);
   judged.form_factor_change = std::max(judged.form_factor_change, unoccluded_radiance);
   judged.visibility_change = std::max(judged.visibility_change, unoccluded_radiance);
@@ -222,7 +219,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     const auto samples = std::clamp(static_cast<std::uint32_t>(share * context.settings.vertex_samples), kMinSamples,
                                     kMaxSamples);
     judged.push_back(judge(node, id, samples, observe(context, receivers, id, samples, combine(key_of(id), 1)), reflectance));
-    distrust_near_emitter(node, region, reflectance, judged.back());
+    distrust_emitter(node, region, reflectance, judged.back());
   }
   const float threshold = critical_change(judged, context.settings.threshold);
 
@@ -236,6 +233,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     critical.resample_visibility = sender.visibility_change > threshold ? 1 : 0;
     critical.outline = outline_of(context.tree, sender.node);
     critical.prior = sender.prior;
+    critical.visibility = sender.visibility;
     const bool needs_both = critical.resample_form_factor != 0 && critical.resample_visibility != 0;
     if (!needs_both) {
       measure(node, observe(context, receivers, sender.node, sender.samples, combine(key_of(sender.node), 2)), critical);

@@ -173,5 +173,20 @@ TEST(Pipeline, RefusesTasksThatTheViewDoesNotHaveAndResultsThatAreMissing) {
   EXPECT_EQ(finish(files.view, results, {}).error().code, Code::kDataLoss);
 }
 
+TEST(Pipeline, RefusesAClosedSceneThatCanLoseNoLight) {
+  const auto text = read_file(test::own_scene_path("furnace"), 1U << 20U);
+  ASSERT_TRUE(text.has_value());
+  json gltf = json::parse(*text);
+  for (json& material : gltf["materials"]) material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 1};
+  const auto folder = TemporaryDirectory::create("radfarm-test");
+  ASSERT_TRUE(folder.has_value());
+  const auto path = folder->path() / "white.gltf";
+  ASSERT_TRUE(write_file_atomically(path, gltf.dump()).has_value());
+  const auto files = prepare(path, small_request());
+  ASSERT_FALSE(files.has_value());
+  EXPECT_EQ(files.error().code, Code::kInvalidArgument);
+  EXPECT_THAT(files.error().message, testing::HasSubstr("no light can be lost"));
+}
+
 }  // namespace
 }  // namespace radfarm
