@@ -1,12 +1,12 @@
 #include "effects/measure.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <vector>
 
 #include "base/random.h"
 #include "math/sampling.h"
+#include "scene/emission_sampling.h"
 
 namespace radfarm {
 namespace {
@@ -30,35 +30,18 @@ void count_materials(const Scene& scene, Measurements& m) {
   }
 }
 
-/// A ray that leaves an emitter, chosen as next-event estimation chooses it. Nothing for directional lights: their light
-/// comes from outside.
-std::optional<Ray> leave_emitter(const World& world, RandomSequence& random) {
-  const std::size_t index = world.emitters.choice.sample(random.uniform_double()).index;
-  if (index >= world.emitters.triangles.size()) {
-    const PunctualLight& light = world.emitters.punctual[index - world.emitters.triangles.size()];
-    if (light.kind == PunctualLight::Kind::kDirectional) return std::nullopt;
-    return Ray{light.position, sample_uniform_sphere({random.uniform(), random.uniform()})};
-  }
-  const EmissiveTriangle& t = world.emitters.triangles[index];
-  const Vec3 b = sample_uniform_triangle({random.uniform(), random.uniform()});
-  const bool is_mirrored = world.surfaces.is_mirrored(t.instance);
-  SurfacePoint point = world.surfaces.at({t.instance, t.triangle, is_mirrored ? b.z : b.y, is_mirrored ? b.y : b.z, 0});
-  if (t.both_sides && random.uniform() < 0.5F) face(point, -point.geometric_normal);
-  const Vec3 local = sample_cosine_hemisphere({random.uniform(), random.uniform()});
-  return Ray{leave(point), normalize(Frame(point.geometric_normal).to_world(local))};
-}
-
 /// Follows light from an emitter over a few diffuse bounces: true when it meets nothing on the way.
 bool walk_escapes(const World& world, RandomSequence& random) {
-  std::optional<Ray> ray = leave_emitter(world, random);
-  if (!ray) return true;
+  const double choice = random.uniform_double();
+  const Vec2 place{random.uniform(), random.uniform()}, direction{random.uniform(), random.uniform()};
+  Ray ray = sample_emission(world, choice, place, direction).ray;
   for (int bounce = 0; bounce < kBounces; ++bounce) {
-    const auto hit = world.caster.closest(*ray, random.bits());
+    const auto hit = world.caster.closest(ray, random.bits());
     if (!hit) return true;
     SurfacePoint point = world.surfaces.at(*hit);
-    face(point, -ray->direction);
+    face(point, -ray.direction);
     const Vec3 local = sample_cosine_hemisphere({random.uniform(), random.uniform()});
-    ray = Ray{leave(point), normalize(Frame(point.geometric_normal).to_world(local))};
+    ray = {leave(point), normalize(Frame(point.geometric_normal).to_world(local))};
   }
   return false;
 }

@@ -1,10 +1,7 @@
 #pragma once
 
-#include "estimate/counters.h"
-#include "estimate/pixel_sampler.h"
+#include "estimate/gather_context.h"
 #include "estimate/radiance_parts.h"
-#include "scene/world.h"
-#include "senders/sender_grid.h"
 
 namespace radfarm {
 
@@ -12,16 +9,10 @@ namespace radfarm {
 ///
 /// The vertex is chosen by the point's interpolation weights, one a camera sample, so that the mean over a pixel is the
 /// conforming interpolation and the blend of mixed classifications, continuous from cell to cell. Interpolated senders
-/// add their lobes; of the critical ones `samples_per_gather` are drawn by systematic sampling in proportion to their
-/// unoccluded irradiance at the vertex: the form factor of a patch is exact, its visibility traced. Punctual lights are
-/// always traced. Stops at the first surface: everything is Lambertian.
-struct GatherContext {
-  const World& world;
-  const SenderTree& tree;
-  const SenderGrid& senders;
-  const SenderSettings& settings;
-  bool has_interreflection = true;  // effect interreflection; off: `indirect` is neither computed nor returned
-};
+/// add their lobes; of the critical ones `samples_per_gather` are drawn by systematic sampling in proportion to what
+/// they are likely to give the point: the form factor of a patch is exact, its visibility traced. What is nearer than a
+/// grid cell is wide comes by rays (near_light.h). Punctual lights are always traced. Stops at the first surface:
+/// everything is Lambertian.
 RadianceParts gather_radiance(const GatherContext& context, const Ray& ray, const PixelSampler& sampler,
                               Counters& counters);
 

@@ -21,14 +21,6 @@ struct Departure {
   float pdf = 0;  // per steradian
 };
 
-/// (path.2) The share of an emitter hit that belongs to this way of finding it, by the balance heuristic.
-float weight_of_hit(const World& world, const Hit& hit, const Departure& from) {
-  const std::uint32_t index = world.emitters.find(hit.instance, hit.triangle);
-  if (index == kNone) return 1;
-  const float other = pdf_emitter(world, index, from.position, from.direction, hit.distance);
-  return from.pdf / (from.pdf + other);
-}
-
 /// Light that reaches `point` from one sampled emitter and goes on along the path, times rho / pi and the cosine.
 Spectrum next_event(const World& world, const SurfacePoint& point, const Spectrum& rho, const PixelSampler& sampler,
                     std::uint32_t dimension, Counters& counters) {
@@ -36,9 +28,7 @@ Spectrum next_event(const World& world, const SurfacePoint& point, const Spectru
   counters.visibility_rays += event.traced ? 1 : 0;
   const float cosine = dot(point.shading_normal, event.direction);
   if (is_black(event.weight) || !(cosine > 0)) return {};
-  const float other = cosine * kInversePi;
-  const float weight = event.pdf > 0 ? event.pdf / (event.pdf + other) : 1;
-  return rho * event.weight * (weight * cosine * kInversePi);
+  return rho * event.weight * (balance_of_event(event, cosine * kInversePi) * cosine * kInversePi);
 }
 
 /// The survival probability of a path that carries `throughput` and reflects with rho.
@@ -68,7 +58,8 @@ RadianceParts trace_path(const World& world, const Ray& camera_ray, const PixelS
     if (bounce == 0) {
       parts.emission = emitted;
     } else if (!is_black(emitted)) {
-      (bounce == 1 ? parts.direct : parts.indirect) += throughput * emitted * weight_of_hit(world, *hit, from);
+      const float weight = balance_of_hit(world, *hit, from.position, from.direction, from.pdf);
+      (bounce == 1 ? parts.direct : parts.indirect) += throughput * emitted * weight;
     }
 
     // Next event: emitters seen from this vertex.

@@ -22,8 +22,7 @@ struct Settings {
   std::uint32_t has_interreflection = 1; // effect interreflection
   RadiositySettings radiosity;
   SenderSettings senders;
-  std::uint32_t reserved = 0;            // always 0: without it the struct would end in padding, whose bytes are anything
 };
-static_assert(sizeof(Settings) == 44 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
+static_assert(sizeof(Settings) == 40 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
 
 }  // namespace radfarm

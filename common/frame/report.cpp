@@ -65,6 +65,7 @@ json to_json(const Settings& s) {
                       {"min_patch_area", s.radiosity.min_patch_area},
                       {"residual", s.radiosity.residual},
                       {"samples_per_link", s.radiosity.samples_per_link},
+                      {"hits_per_patch", s.radiosity.hits_per_patch},
                       {"max_links", s.radiosity.max_links},
                       {"max_passes", s.radiosity.max_passes}};
   out["senders"] = {{"threshold", s.senders.threshold},

@@ -43,8 +43,12 @@ LoadOptions load_options(const RenderRequest& request) {
 }
 
 /// A scene without light, or whose light can never be lost, has no image.
-Status check_light(const Measurements& m) {
-  if (m.emissive_triangles == 0 && m.punctual_lights == 0) {
+Status check_light(const Scene& scene, const Measurements& m) {
+  const bool is_declared = m.emissive_triangles > 0 || m.punctual_lights > 0;
+  if (!is_declared && scene.instances.empty()) {
+    return fail(Code::kInvalidArgument, "the scene has no triangles: points and lines are not rendered");
+  }
+  if (!is_declared) {
     return fail(Code::kInvalidArgument,
                 "the scene has no emitter: give it an emissive material, a light (KHR_lights_punctual), or --env");
   }
@@ -100,7 +104,7 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   planned.world = std::make_unique<World>(std::move(scene));
   clock.end_stage("acceleration");
   planned.measurements = measure(*planned.world, request.seed);
-  RADFARM_TRY_STATUS(check_light(planned.measurements));
+  RADFARM_TRY_STATUS(check_light(planned.world->scene, planned.measurements));
   RADFARM_TRY(planned.plan, plan_effects(planned.measurements, request.effects));
   RADFARM_TRY(planned.camera, choose_camera(planned.world->scene, request));
   planned.settings = resolve_settings(request, planned.camera.camera);
@@ -123,22 +127,34 @@ json energy_json(const EnergyLedger& energy) {
           {"closure_error", energy.closure_error}};
 }
 
+/// What sends light when none is reflected: the emitters.
+RadiositySolution emitters_alone(const World& world, std::uint64_t seed) {
+  RadiositySolution solution;
+  const SideNumbers sides(world.scene);
+  solution.hierarchy = build_hierarchy(world, sides, reachable_sides(world, sides, seed));
+  solution.reflected_power.resize(solution.hierarchy.nodes.size());
+  return solution;
+}
+
 /// Radiosity, senders and grid of a view that gathers.
 void prepare_gather(Planned& planned, const RenderRequest& request, StageClock& clock, View& view,
                     PreparedFiles& files) {
   const World& world = *planned.world;
-  const RadiositySolution solution = solve_radiosity(world, planned.settings.radiosity, request.seed);
+  const bool is_reflecting = planned.plan.is_active("interreflection");
+  const RadiositySolution solution = is_reflecting
+                                         ? solve_radiosity(world, planned.settings.radiosity, request.seed)
+                                         : emitters_alone(world, request.seed);
   planned.facts["counts"]["links"] = solution.links;
   planned.facts["counts"]["elements"] = solution.hierarchy.patches.size();
   planned.facts["counts"]["radiosity_iterations"] = solution.iterations;
-  planned.facts["energy"] = energy_json(solution.energy);
+  if (is_reflecting) planned.facts["energy"] = energy_json(solution.energy);
   const SenderTree tree = make_sender_tree(solution);
   files.solution = encode(tree);
   planned.facts["solution"] = {{"digest", sha256_hex(files.solution)}, {"reused", false}};
   clock.end_stage("radiosity");
 
   Settings& settings = view.settings;
-  settings.has_interreflection = planned.plan.is_active("interreflection") ? 1 : 0;
+  settings.has_interreflection = is_reflecting ? 1 : 0;
   const bool is_full = request.integrator == RenderRequest::Integrator::kFullGather;
   if (is_full) settings.senders.threshold = 0;
   if (!is_full && !request.threshold && !solution.hierarchy.nodes.empty()) {

@@ -6,6 +6,7 @@
 #include "pipeline/pipeline.h"
 #include "scene/world.h"
 #include "senders/sender_grid.h"
+#include "senders/sender_lookup.h"
 
 namespace radfarm {
 
@@ -16,6 +17,7 @@ struct Prepared::Parts {
   const View view;
   const World world;
   const SenderTree tree;              // empty unless the integrator gathers
+  std::optional<SenderLookup> lookup;
   std::optional<SenderGrid> senders;
   bool has_interreflection = true;
 };

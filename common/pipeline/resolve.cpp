@@ -62,8 +62,11 @@ float threshold_share(RenderRequest::Quality quality) {
 
 float default_threshold(const RadiositySolution& solution, float share) {
   if (solution.hierarchy.nodes.empty()) return 0;
-  const double area = static_cast<double>(solution.hierarchy.nodes[0].area);
-  return share * static_cast<float>(luminance(SpectrumD(solution.reflected_power[0])) / (std::numbers::pi * area));
+  const Node& root = solution.hierarchy.nodes[0];
+  // Where nothing was solved, what the emitters' light would give once reflected stands in.
+  const bool is_solved = !is_black(solution.reflected_power[0]);
+  const Spectrum power = is_solved ? solution.reflected_power[0] : root.emitted_power * root.reflectance;
+  return share * static_cast<float>(luminance(SpectrumD(power)) / (std::numbers::pi * static_cast<double>(root.area)));
 }
 
 Settings resolve_settings(const RenderRequest& request, const Camera& camera) {

@@ -22,7 +22,7 @@ SampleRadiance path_integrator(const Prepared::Parts& parts) {
 
 SampleRadiance integrator(const Prepared::Parts& parts) {
   if (!parts.senders) return path_integrator(parts);
-  const GatherContext context{parts.world, parts.tree, *parts.senders, parts.view.settings.senders,
+  const GatherContext context{parts.world, parts.tree, *parts.lookup, *parts.senders, parts.view.settings.senders,
                               parts.has_interreflection};
   return [context](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
     return gather_radiance(context, ray, sampler, counters);
@@ -72,6 +72,7 @@ Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<cons
   RADFARM_TRY(SenderTree tree, decode_sender_tree(solution));
   RADFARM_TRY(SenderGridFile grid, decode_sender_grid(opened.grid, opened.camera, tree));
   auto parts = std::make_unique<Parts>(std::move(opened), std::move(decoded), std::move(tree));
+  parts->lookup.emplace(parts->world, parts->tree);
   parts->senders.emplace(std::move(grid), parts->world, parts->tree, parts->view.settings.senders, settings.seed);
   parts->has_interreflection = settings.has_interreflection != 0;
   return Prepared(std::move(parts));

@@ -16,16 +16,41 @@ constexpr std::uint32_t kMinSamples = 4;
 constexpr std::uint32_t kMaxSamples = 256;
 constexpr float kSamplesPerScene = 4e5F;  // spread over the area, besides kMinSamples a patch
 
+/// A point of the patch with the shading normal that a viewer sees there.
+SurfacePoint point_on(const World& world, const Patch& patch, const Vec2& u) {
+  const Vec3 b = sample_uniform_triangle(u);
+  const Vec3 position = patch.vertices[0] * b.x + patch.vertices[1] * b.y + patch.vertices[2] * b.z;
+  SurfacePoint point = world.surfaces.at(world.surfaces.hit_at(patch.instance, patch.triangle, position));
+  face(point, patch.normal);
+  return point;
+}
+
+/// Irradiance from a sampled emitter.
+Spectrum by_next_event(const World& world, const SurfacePoint& point, float choice, const Vec2& u) {
+  const NextEvent event = sample_emitter(world, point, choice, u);
+  const float cosine = std::max(0.0F, dot(point.shading_normal, event.direction));
+  return event.weight * (balance_of_event(event, cosine * kInversePi) * cosine);
+}
+
+/// Irradiance from the emitter that a cosine-distributed ray meets: what lies so close that next events hardly choose it.
+Spectrum by_ray(const World& world, const SurfacePoint& point, const Vec2& u, std::uint64_t key) {
+  const Vec3 local = sample_cosine_hemisphere(u);
+  const Ray ray{leave(point), normalize(Frame(point.shading_normal).to_world(local))};
+  if (!(dot(ray.direction, point.geometric_normal) > 0)) return {};
+  const auto hit = world.caster.closest(ray, key);
+  if (!hit || world.emitters.find(hit->instance, hit->triangle) == kNone) return {};
+  SurfacePoint target = world.surfaces.at(*hit);
+  face(target, -ray.direction);
+  const float weight = balance_of_hit(world, *hit, point.position, ray.direction, pdf_cosine_hemisphere(local));
+  return world.surfaces.emission(target) * (weight * kPi);
+}
+
 Spectrum sample_patch(const World& world, const Patch& patch, std::uint32_t samples, std::uint64_t key) {
   SpectrumD sum;
   for (std::uint32_t i = 0; i < samples; ++i) {
-    const Vec3 b = sample_uniform_triangle(sobol_owen_2d(i, combine(key, 1)));
-    SurfacePoint point;
-    point.position = patch.vertices[0] * b.x + patch.vertices[1] * b.y + patch.vertices[2] * b.z;
-    point.geometric_normal = point.shading_normal = patch.normal;
-    point.offset = patch.offset;
-    const NextEvent event = sample_emitter(world, point, sobol_owen_1d(i, combine(key, 2)), sobol_owen_2d(i, combine(key, 3)));
-    sum += SpectrumD(event.weight * std::max(0.0F, dot(patch.normal, event.direction)));
+    const SurfacePoint point = point_on(world, patch, sobol_owen_2d(i, combine(key, 1)));
+    sum += SpectrumD(by_next_event(world, point, sobol_owen_1d(i, combine(key, 2)), sobol_owen_2d(i, combine(key, 3))));
+    sum += SpectrumD(by_ray(world, point, sobol_owen_2d(i, combine(key, 4)), combine(key, 5, i)));
   }
   return Spectrum(sum / static_cast<double>(samples));
 }

@@ -7,9 +7,10 @@
 
 namespace radfarm {
 
-/// Irradiance that the emitters give each undivided patch, lux, by next-event samples on the patch itself: 4, more on large
-/// ones. Links to clusters would spread it over the cluster's lit and shaded patches alike; what a plant sends to the room
-/// comes from the leaves that are lit and seen, so who is lit matters. Noise averages out over patches. Unbiased.
+/// Irradiance that the emitters give each undivided patch, lux, by next events and rays on the patch itself, combined by
+/// the balance heuristic: 4 of each, more on large ones. Links to clusters would spread it over the cluster's lit and shaded
+/// patches alike; what a plant sends to the room comes from the leaves that are lit and seen, so who is lit matters. Noise
+/// averages out over patches. Unbiased.
 /// Values that `direct` already holds (>= 0) are kept; -1 marks those still to do. Keyed by node. About 1 us a sample.
 void sample_direct(const World& world, const Hierarchy& hierarchy, std::uint64_t seed, std::vector<Spectrum>& direct);
 

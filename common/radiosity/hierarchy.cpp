@@ -56,6 +56,7 @@ Patch make_patch(const World& world, std::uint32_t instance, std::uint32_t trian
   patch.offset = point.offset;
   patch.instance = instance;
   patch.triangle = triangle;
+  patch.is_front = is_front ? 1 : 0;
   average_material(world, hit, is_front, patch);
   const Material& material = world.scene.materials[point.material];
   patch.is_textured_emitter = material.emission_texture != kNone && !is_black(patch.emission) ? 1 : 0;
@@ -251,6 +252,33 @@ std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node) {
   hierarchy.nodes[node].first_child = first;
   hierarchy.nodes[node].child_count = 4;
   return first;
+}
+
+std::uint32_t part_at(const Hierarchy& hierarchy, std::uint32_t node, const Vec3& position) {
+  if (hierarchy.nodes[node].child_count == 0) return node;
+  const TriangleVertices& v = hierarchy.patches[hierarchy.nodes[node].patch].vertices;
+  const Vec3d e1 = to_double(v[1]) - to_double(v[0]), e2 = to_double(v[2]) - to_double(v[0]);
+  const Vec3d d = to_double(position) - to_double(v[0]), normal = cross(e1, e2);
+  double b = dot(cross(d, e2), normal) / dot(normal, normal);
+  double c = dot(cross(e1, d), normal) / dot(normal, normal);
+  while (hierarchy.nodes[node].child_count > 0) {
+    // The weights of the part's vertices from those of the whole's, in the order of subdivide().
+    const double a = 1 - b - c;
+    const std::uint32_t part = a > 0.5 ? 0 : b > 0.5 ? 1 : c > 0.5 ? 2 : 3;
+    if (part == 3) {
+      b = 1 - 2 * a;
+      c = 1 - 2 * (1 - a - c);
+    } else {
+      b = part == 1 ? 2 * b - 1 : 2 * b;
+      c = part == 2 ? 2 * c - 1 : 2 * c;
+    }
+    node = hierarchy.nodes[node].first_child + part;
+  }
+  return node;
+}
+
+void pull_up(const Hierarchy& hierarchy, std::vector<Spectrum>& power) {
+  for (std::size_t i = hierarchy.nodes.size(); i-- > 1;) power[hierarchy.nodes[i].parent] += power[i];
 }
 
 void set_reflected_power(Hierarchy& hierarchy, const std::vector<Spectrum>& power) {

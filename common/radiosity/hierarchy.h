@@ -20,6 +20,7 @@ struct Patch {
   Spectrum emission;              // L_e from this side, mean over the patch, cd/m^2
   std::uint32_t instance = 0;
   std::uint32_t triangle = 0;
+  std::uint32_t is_front = 1;     // whether it is the triangle's front side
   std::uint32_t is_textured_emitter = 0;
 };
 
@@ -62,6 +63,12 @@ Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const st
 
 /// Cuts a patch into four by its edges' midpoints; returns the first of the four new nodes. Requires: no children yet.
 std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node);
+
+/// The undivided part of a whole patch in which a point of its plane lies; the node itself where it has no parts.
+std::uint32_t part_at(const Hierarchy& hierarchy, std::uint32_t node, const Vec3& position);
+
+/// Adds what stands at undivided patches to all nodes above; `power` is one a node, zero elsewhere.
+void pull_up(const Hierarchy& hierarchy, std::vector<Spectrum>& power);
 
 /// Lets sample_node() choose by what the nodes reflect now; `power` is one a node, lm.
 void set_reflected_power(Hierarchy& hierarchy, const std::vector<Spectrum>& power);

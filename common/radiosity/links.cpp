@@ -130,7 +130,7 @@ bool cannot_see(const Hierarchy& hierarchy, std::uint32_t a, std::uint32_t b) {
 }
 
 Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t sender,
-                   bool has_emitted, bool has_reflected, std::uint32_t samples, std::uint64_t seed) {
+                   std::uint32_t parts, std::uint32_t samples, std::uint64_t seed) {
   const Node& to = hierarchy.nodes[receiver];
   const Node& from = hierarchy.nodes[sender];
   const float typical = typical_kernel(to, from);
@@ -138,17 +138,17 @@ Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t
   Link link;
   link.receiver = receiver;
   link.sender = sender;
-  link.evaluated = (has_emitted ? kEmittedPart : 0) | (has_reflected ? kReflectedPart : 0);
-  if (has_reflected) {
-    const Lines lines = draw_lines(world, hierarchy, to, from, SampleBy::kReflectedPower, samples, combine(key, 1));
-    link.reflected = transport(lines, needs_direction(to, from));
-    link.reflected_error = lines.error(typical);
-    merge_geometry(lines, link);
-  }
-  if (has_emitted) {
+  link.evaluated = parts;
+  if ((parts & kEmittedPart) != 0) {
     const Lines lines = draw_lines(world, hierarchy, to, from, SampleBy::kEmittedPower, samples, combine(key, 2));
     link.emitted = transport(lines, needs_direction(to, from));
     link.emitted_error = lines.error(typical);
+    merge_geometry(lines, link);
+  }
+  if ((parts & kReflectedPart) != 0) {  // last: the direction is of reflected light where there is any
+    const Lines lines = draw_lines(world, hierarchy, to, from, SampleBy::kReflectedPower, samples, combine(key, 1));
+    link.reflected = transport(lines, needs_direction(to, from));
+    link.reflected_error = lines.error(typical);
     merge_geometry(lines, link);
   }
   return link;

@@ -11,9 +11,9 @@ inline constexpr std::uint32_t kReflectedPart = 2;
 
 /// How light of one sender reaches one receiver: form factor and visibility apart, emitted and reflected light apart.
 ///
-/// A patch receiver gets the irradiance E = emitted * P_e + reflected * P_r from the sender's powers P (lm); a cluster
-/// receiver gets the same formula at normal incidence, and its patches their cosine to `direction`; a cluster's link to
-/// itself gives all its patches the mean irradiance. (radiosity.3)
+/// A patch receiver gets the irradiance E = reflected * P from the power P (lm) that the sender reflects; a cluster receiver gets
+/// the same formula at normal incidence, and its patches their cosine to `direction`; a cluster's link to itself gives all its
+/// patches the mean irradiance. The emitted part only steers refinement: direct light is in sample_direct(). (radiosity.3)
 struct Link {
   bool has_direction(const Node& receiver_node) const { return receiver_node.is_cluster() && receiver != sender; }
 
@@ -37,12 +37,12 @@ constexpr std::uint32_t punctual_index(std::uint32_t sender) { return kNone - 1 
 /// Whether it is certain that no light passes from one node to the other: they look away from each other.
 bool cannot_see(const Hierarchy& hierarchy, std::uint32_t a, std::uint32_t b);
 
-/// Evaluates a link with `samples` random lines between the elements for each part of the sender's light that is there.
+/// Evaluates a link with `samples` random lines between the elements for each of `parts` (kEmittedPart, kReflectedPart).
 /// Unoccluded factors of patch senders are exact (Lambert's polygon formula), of clusters sampled. Keyed by (seed, receiver,
 /// sender): the same bits whoever computes it. About 0.5 us a line.
 /// Requires: sender < hierarchy.nodes.size() (punctual lights: evaluate_punctual).
 Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t sender,
-                   bool has_emitted, bool has_reflected, std::uint32_t samples, std::uint64_t seed);
+                   std::uint32_t parts, std::uint32_t samples, std::uint64_t seed);
 
 /// The same for punctual light `light` of world.emitters: `emitted` is the mean irradiance (luminance, at normal incidence
 /// for clusters) in lux that arrives, to be scaled by the light's colour.

@@ -54,8 +54,10 @@ Link evaluate(const Round& round, const Link& link) {
     return evaluate_punctual(round.world, round.hierarchy, link.receiver, punctual_index(link.sender),
                              round.settings.samples_per_link, round.seed);
   }
-  return evaluate_link(round.world, round.hierarchy, link.receiver, link.sender, sender_emits(round, link) > 0,
-                       sender_reflects(round, link) > 0, round.settings.samples_per_link, round.seed);
+  const std::uint32_t parts = (sender_emits(round, link) > 0 ? kEmittedPart : 0) |
+                              (sender_reflects(round, link) > 0 ? kReflectedPart : 0);
+  return evaluate_link(round.world, round.hierarchy, link.receiver, link.sender, parts,
+                       round.settings.samples_per_link, round.seed);
 }
 
 bool can_split(const Round& round, std::uint32_t node) {
@@ -174,14 +176,19 @@ std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflecte
   return splits;
 }
 
-void measure_again(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
+void measure_again(const World& world, Hierarchy& hierarchy, const NodePower& reflected, std::vector<Link>& links,
                    const RadiositySettings& settings, std::uint64_t seed) {
   set_reflected_power(hierarchy, reflected);
-  const Round round{world, hierarchy, reflected, settings, 0, 0, combine(seed, kFinalKey)};
-  parallel_for(links.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) links[i] = evaluate(round, links[i]);
+  std::erase_if(links, [&](const Link& link) {
+    return is_punctual(link.sender) || !(luminance(reflected[link.sender]) > 0);
   });
-  std::erase_if(links, [](const Link& link) { return link.emitted == 0 && link.reflected == 0; });
+  parallel_for(links.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      links[i] = evaluate_link(world, hierarchy, links[i].receiver, links[i].sender, kReflectedPart,
+                               settings.samples_per_link, combine(seed, kFinalKey));
+    }
+  });
+  std::erase_if(links, [](const Link& link) { return link.reflected == 0; });
 }
 
 }  // namespace radfarm

@@ -22,10 +22,10 @@ std::vector<Link> initial_links(const World& world, const Hierarchy& hierarchy);
 std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
                    const RadiositySettings& settings, double emitted_flux, std::uint64_t seed);
 
-/// Evaluates every link with fresh random lines, and drops those that carry nothing. Links were accepted because their
-/// samples varied little, so those samples are biased: a link whose lines happened to miss was kept, one whose lines hit
-/// was cut. Factors measured after the decision are unbiased.
-void measure_again(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
+/// Evaluates the reflected part of every link with fresh random lines, and drops links that carry none. Links were accepted
+/// because their samples varied little, so those samples are biased: a link whose lines happened to miss was kept, one whose
+/// lines hit was cut. Factors measured after the decision are unbiased.
+void measure_again(const World& world, Hierarchy& hierarchy, const NodePower& reflected, std::vector<Link>& links,
                    const RadiositySettings& settings, std::uint64_t seed);
 
 }  // namespace radfarm

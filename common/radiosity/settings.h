@@ -12,6 +12,7 @@ struct RadiositySettings {
   std::uint32_t samples_per_link = 10; // random lines between the two elements of a link
   std::uint32_t max_links = 3'000'000;
   std::uint32_t max_passes = 3;        // refine with the current radiosity, solve again
+  std::uint32_t hits_per_patch = 4;   // of light paths, on average; 0: the links' solution stands alone
 };
 
 }  // namespace radfarm

@@ -2,120 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "radiosity/deliveries.h"
 #include "radiosity/direct.h"
 #include "radiosity/escape.h"
+#include "radiosity/light_paths.h"
 
 namespace radfarm {
 namespace {
 
-constexpr int kBisections = 40;
 constexpr std::size_t kMaxIterations = 2000;  // rho = .999 needs about 7 / (1 - rho) / ln 10 gathers for 1e-3
 
-// A sender is not scaled by more than this: beyond, its links say too little of where its light goes.
-constexpr double kMaxScale = 100;
-
-/// Links sorted by receiver, with what each one delivers in the current iteration.
-struct Deliveries {
-  std::vector<Link> links;
-  std::vector<std::uint32_t> first_of_node;  // one a node and one past the last
-  std::vector<Spectrum> irradiance;          // lux, at normal incidence for cluster receivers
-  std::vector<float> scale;                  // per node, used at undivided patches
-
-  /// Of all links those that carry reflected light: what emitters give is in sample_direct().
-  Deliveries(const std::vector<Link>& all, std::size_t nodes) {
-    std::copy_if(all.begin(), all.end(), std::back_inserter(links), [](const Link& link) { return link.reflected > 0; });
-    std::stable_sort(links.begin(), links.end(), [](const Link& a, const Link& b) { return a.receiver < b.receiver; });
-    first_of_node.resize(nodes + 1);
-    for (const Link& link : links) ++first_of_node[link.receiver + 1];
-    std::partial_sum(first_of_node.begin(), first_of_node.end(), first_of_node.begin());
-    irradiance.resize(links.size());
-  }
-};
-
-bool is_undivided(const Node& node) { return !node.is_cluster() && node.child_count == 0; }
-
-/// The area over which a link's irradiance is received, cosines included, m^2.
-double receiving_area(const Hierarchy& hierarchy, const Link& link) {
-  const Node& receiver = hierarchy.nodes[link.receiver];
-  if (!link.has_direction(receiver)) return static_cast<double>(receiver.area);
-  double area = 0;
-  for (std::uint32_t i = receiver.first_leaf; i < receiver.first_leaf + receiver.leaf_count; ++i) {
-    const Node& leaf = hierarchy.nodes[hierarchy.leaves[i]];
-    area += static_cast<double>(leaf.area * std::max(0.0F, dot(hierarchy.patches[leaf.patch].normal, link.direction)));
-  }
-  return area;
-}
-
-void pull_up(const Hierarchy& hierarchy, NodePower& power) {
-  for (std::size_t i = hierarchy.nodes.size(); i-- > 1;) power[hierarchy.nodes[i].parent] += power[i];
-}
-
-/// Reflected light on its way to being normalised.
-struct Part {
-  std::vector<double> delivered;  // per node: the share of its light that links from it, and from all above, deliver
-  double sent = 0;                // lm
-  double arrived = 0;
-};
-
-/// The light that arrives when each patch's light is scaled by the smaller of `scale` and what makes it arrive whole.
-double scaled_arrival(const Hierarchy& hierarchy, const NodePower& power, const Part& part, double scale) {
-  double arrived = 0;
-  for (std::size_t i = 0; i < hierarchy.nodes.size(); ++i) {
-    if (!is_undivided(hierarchy.nodes[i])) continue;
-    arrived += static_cast<double>(luminance(power[i])) * std::min(1.0, part.delivered[i] * scale);
-  }
-  return arrived;
-}
-
-/// The one scale with which what stays arrives, no patch sending more than it has: column sums of at most 1 make the
-/// iteration converge whenever rho < 1, however noisy the links. By bisection; scaled_arrival() grows with the scale.
-double find_scale(const Hierarchy& hierarchy, const NodePower& power, const Part& part, double escaping) {
-  const double wanted = (1 - escaping) * part.sent;
-  double low = 0, high = kMaxScale;
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = (low + high) / 2;
-    (scaled_arrival(hierarchy, power, part, middle) < wanted ? low : high) = middle;
-  }
-  return high;
-}
-
-/// (radiosity.6) How much of what each undivided patch reflects its links deliver, and the scale that makes it right: what
-/// does not escape arrives. Returns the share of the light that stays which the links had missed.
-double normalise(const Hierarchy& hierarchy, const NodePower& reflected, double escaping, Deliveries& deliveries) {
-  const std::size_t count = hierarchy.nodes.size();
-  std::vector<double> areas(deliveries.links.size());
-  parallel_for(areas.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) areas[i] = receiving_area(hierarchy, deliveries.links[i]);
-  });
-  Part part{std::vector<double>(count)};
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    // No sender gives one receiver more than all it has, whatever its few samples say.
-    if (areas[i] > 0) {
-      deliveries.links[i].reflected = std::min(deliveries.links[i].reflected, static_cast<float>(1 / areas[i]));
-    }
-    part.delivered[deliveries.links[i].sender] += areas[i] * static_cast<double>(deliveries.links[i].reflected);
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const Node& node = hierarchy.nodes[i];
-    if (i > 0) part.delivered[i] += part.delivered[node.parent];
-    if (!is_undivided(node)) continue;
-    part.sent += static_cast<double>(luminance(reflected[i]));
-    part.arrived += static_cast<double>(luminance(reflected[i])) * part.delivered[i];
-  }
-  const double scale = find_scale(hierarchy, reflected, part, escaping);
-  deliveries.scale.assign(count, 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = part.delivered[i];
-    deliveries.scale[i] = static_cast<float>(std::min(scale, share > 0 ? 1 / share : 1));
-  }
-  const double stays = (1 - escaping) * part.sent;
-  return stays > 0 ? 1 - part.arrived / stays : 0;
-}
+constexpr double kMinPaths = 1 << 15;
+constexpr double kMaxPaths = 1 << 23;  // rays, where light is reflected often
 
 /// What each link delivers of the light sent, normalised.
 void deliver(const NodePower& sent, Deliveries& deliveries) {
@@ -215,6 +116,42 @@ void solve_links(const World& world, const std::vector<Link>& links, const Radio
   fill_ledger(world, solution.hierarchy, direct, deliveries, last, solution.energy);
 }
 
+/// Paths enough for `hits_per_patch`, by how much light the links found after its first reflection.
+std::size_t count_paths(const RadiositySettings& settings, const RadiositySolution& solution) {
+  const double bounces = luminance(SpectrumD(solution.reflected_power[0])) / solution.energy.emitted;
+  const auto patches = static_cast<double>(std::count_if(solution.hierarchy.nodes.begin(), solution.hierarchy.nodes.end(), is_undivided));
+  const double hits = settings.hits_per_patch * patches;
+  return static_cast<std::size_t>(std::clamp(hits / std::max(bounces, 0.05), kMinPaths, kMaxPaths / std::max(bounces, 1.0)));
+}
+
+/// What undivided patches reflect of the light that emitters give them, lm.
+std::vector<Spectrum> reflect_direct(const Hierarchy& hierarchy, const std::vector<Spectrum>& direct) {
+  std::vector<Spectrum> reflected(hierarchy.nodes.size());
+  for (std::size_t i = 0; i < reflected.size(); ++i) {
+    const Node& node = hierarchy.nodes[i];
+    if (is_undivided(node)) reflected[i] = node.reflectance * direct[i] * node.area;
+  }
+  return reflected;
+}
+
+/// (radiosity.7) The light that surfaces exchange, as paths find it; the links' solution is the guess where few paths went.
+void follow_paths(const World& world, const SideNumbers& sides, const std::vector<Spectrum>& direct,
+                  const RadiositySettings& settings, std::uint64_t seed, RadiositySolution& solution) {
+  const Hierarchy& hierarchy = solution.hierarchy;
+  const std::vector<Spectrum> reflected = reflect_direct(hierarchy, direct);
+  std::vector<Spectrum> indirect(hierarchy.nodes.size());
+  for (std::size_t i = 0; i < indirect.size(); ++i) {
+    if (is_undivided(hierarchy.nodes[i])) indirect[i] = solution.reflected_power[i] - reflected[i];
+  }
+  const PathHits hits = follow_light(world, sides, hierarchy, count_paths(settings, solution), seed);
+  indirect = combine_with_guess(hierarchy, hits, indirect);
+  for (std::size_t i = 0; i < indirect.size(); ++i) solution.reflected_power[i] = reflected[i] + indirect[i];
+  pull_up(hierarchy, solution.reflected_power);
+  solution.energy.absorbed = hits.absorbed;
+  solution.energy.truncated = 0;
+  solution.energy.escaped = solution.energy.emitted - hits.absorbed;
+}
+
 }  // namespace
 
 RadiositySolution solve_radiosity(const World& world, const RadiositySettings& settings, std::uint64_t seed) {
@@ -237,6 +174,7 @@ RadiositySolution solve_radiosity(const World& world, const RadiositySettings& s
     solve_links(world, links, settings, direct, combine(seed, solution.passes), solution);
   }
   solution.links = links.size();
+  if (settings.hits_per_patch > 0) follow_paths(world, sides, direct, settings, seed, solution);
   return solution;
 }
 

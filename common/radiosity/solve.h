@@ -26,7 +26,7 @@ struct RadiositySolution {
   std::size_t iterations = 0;
 };
 
-/// Hierarchical radiosity with clustering.                               docs/pipeline.md (radiosity.1) to (radiosity.5)
+/// Hierarchical radiosity with clustering, put right by light paths.     docs/pipeline.md (radiosity.1) to (radiosity.7)
 ///
 /// Solves B = pi L_e + rho E, E the irradiance gathered over links: refine with the light known so far, gather and pull until
 /// an iteration changes the reflected power by less than `residual`, and again with the new light until nothing is split.

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/digest.h"
+#include "base/utf8.h"
 #include "rpc/limits.h"
 
 namespace radfarm {
@@ -32,6 +33,14 @@ Status check_length(const std::string& text, std::size_t low, std::size_t high, 
   if (text.size() >= low && text.size() <= high) return {};
   return invalid(field, "has " + std::to_string(text.size()) + " bytes, must have " + std::to_string(low) + " to " +
                             std::to_string(high));
+}
+
+/// Names go to logs, terminals and JSON.
+Status check_name(const std::string& name, std::size_t low, std::size_t high, const std::string& field) {
+  RADFARM_TRY_STATUS(check_length(name, low, high, field));
+  if (!is_utf8(name)) return invalid(field, "is not UTF-8");
+  if (has_control_characters(name)) return invalid(field, "has control characters");
+  return {};
 }
 
 Code code_from(std::uint32_t number) {
@@ -70,6 +79,7 @@ Status check_digest(const std::string& digest, const std::string& field) {
 Status check_relative_path(const std::string& path) {
   const auto refuse = [&](const char* why) { return invalid(quoted("path", path), why); };
   if (path.empty() || path.size() > limits::kPathBytes) return refuse("is empty or too long");
+  if (!is_utf8(path)) return invalid("path", "is not UTF-8");
   const auto is_bad = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\\' || c == 0x7f; };
   if (std::any_of(path.begin(), path.end(), is_bad)) return refuse("has control characters or backslashes");
   for (std::size_t begin = 0; begin <= path.size();) {
@@ -83,7 +93,7 @@ Status check_relative_path(const std::string& path) {
 }
 
 Result<JobSpec> parse(const v1::RenderJobSpec& message) {
-  RADFARM_TRY_STATUS(check_length(message.display_name(), 0, limits::kNameBytes, "spec.display_name"));
+  RADFARM_TRY_STATUS(check_name(message.display_name(), 0, limits::kNameBytes, "spec.display_name"));
   RADFARM_TRY_STATUS(
       check_length(message.render_request_json(), 2, limits::kRequestJsonBytes, "spec.render_request_json"));
   RADFARM_TRY(std::vector<SceneFile> files, parse_files(message.files()));
@@ -157,7 +167,7 @@ void encode(const JobStatus& status, v1::RenderJob& message) {
 }
 
 Result<WorkerHello> parse(const v1::RegisterWorkerRequest& message) {
-  RADFARM_TRY_STATUS(check_length(message.name(), 1, limits::kIdBytes, "name"));
+  RADFARM_TRY_STATUS(check_name(message.name(), 1, limits::kIdBytes, "name"));
   RADFARM_TRY_STATUS(check_length(message.build(), 1, limits::kNameBytes, "build"));
   RADFARM_TRY_STATUS(check_length(message.fingerprint(), 1, limits::kNameBytes, "fingerprint"));
   if (message.threads() < 1 || message.threads() > limits::kWorkerThreads) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "scene/opening.h"
 #include "scene/surface_samples.h"
 
 namespace radfarm {
@@ -22,6 +23,18 @@ Imath::Box3d bulk_box(const SurfaceSamples& samples) {
   box.extendBy(low);
   box.extendBy(high);
   return box;
+}
+
+constexpr float kRoomFov = 1.0472F;
+constexpr float kObjectFov = 0.7854F;
+
+/// From outside, so that the opening's height, or of a wide one the width, fills a film of 16 to 9.
+Camera look_through(const Opening& opening) {
+  constexpr double kWide = 16.0 / 9.0;
+  const double half_height = std::max(opening.half_height, opening.half_width / kWide);
+  const Vec3d eye = opening.centre + opening.outwards * (half_height / std::tan(static_cast<double>(kObjectFov) / 2));
+  const auto camera = place_camera(to_float(eye), to_float(opening.centre), {0, 1, 0}, kObjectFov);
+  return camera ? *camera : Camera{};
 }
 
 }  // namespace
@@ -80,9 +93,10 @@ Camera frame_scene(const Scene& scene) {
   const Vec3d half = box.size() / 2.0;
   const Vec3d centre = box.center();
   const bool is_room = samples.signed_volume < 0;
-  // In a room: from near one corner, a little above the middle. Otherwise: far enough for the box's sphere to fit.
-  constexpr float kRoomFov = 1.0472F;
-  constexpr float kObjectFov = 0.7854F;
+  if (is_room) {
+    if (const auto opening = find_opening(scene, box)) return look_through(*opening);
+  }
+  // In a closed room: from near a corner, a little above the middle. Otherwise: far enough for the box's sphere to fit.
   const double distance = std::max(length(half), 1e-3) / std::sin(kObjectFov / 2.0) * 1.05;
   const Vec3d outside = centre + normalize(Vec3d(1, 0.6, 1.4)) * distance;
   const Vec3d inside = centre + Vec3d(half.x * 0.7, half.y * 0.2, half.z * 0.8);

@@ -22,8 +22,8 @@ Result<Camera> place_camera(const Vec3& eye, const Vec3& look_at, const Vec3& up
 /// A camera of the scene by name or by index; NOT_FOUND lists what there is.
 Result<Camera> find_camera(const Scene& scene, std::string_view name_or_index);
 
-/// A camera that sees the bulk of the geometry (the box of the area-weighted 1st to 99th percentiles), from inside when
-/// that box looks like a room (its surfaces face inwards), from outside otherwise.
+/// A camera that sees the bulk of the geometry (the box of the area-weighted 1st to 99th percentiles): when that box
+/// looks like a room (its surfaces face inwards), through its open side or else from inside; from outside otherwise.
 Camera frame_scene(const Scene& scene);
 
 }  // namespace radfarm

@@ -95,4 +95,10 @@ float pdf_emitter(const World& world, std::uint32_t index, const Vec3& from, con
   return choice * area_pdf(t, direction, distance);
 }
 
+float balance_of_hit(const World& world, const Hit& hit, const Vec3& from, const Vec3& direction, float pdf) {
+  const std::uint32_t index = world.emitters.find(hit.instance, hit.triangle);
+  if (index == kNone) return 1;
+  return pdf / (pdf + pdf_emitter(world, index, from, direction, hit.distance));
+}
+
 }  // namespace radfarm

@@ -23,4 +23,13 @@ NextEvent sample_emitter(const World& world, const SurfacePoint& point, float ch
 /// which lies at distance `distance` along unit `direction`.
 float pdf_emitter(const World& world, std::uint32_t index, const Vec3& from, const Vec3& direction, float distance);
 
+/// (path.2) The share of what a hit emits that belongs to a direction chosen with density `pdf` per steradian at `from`, when
+/// sample_emitter() is used beside it: the balance heuristic. 1 where next events never choose the triangle.
+float balance_of_hit(const World& world, const Hit& hit, const Vec3& from, const Vec3& direction, float pdf);
+
+/// The share of a next event beside directions chosen with density `other` per steradian.
+inline float balance_of_event(const NextEvent& event, float other) {
+  return event.pdf > 0 ? event.pdf / (event.pdf + other) : 1;
+}
+
 }  // namespace radfarm

@@ -28,17 +28,19 @@ double luminous_flux(const EmissiveTriangle& t) {
   return std::numbers::pi * t.area * luminance(t.mean_radiance) * (t.both_sides ? 2 : 1);
 }
 
-/// Point and spot: lumens, the spot's as if its cone were all at full intensity. Directional: a nominal share.
-double luminous_flux(const PunctualLight& light) {
+double luminous_flux(const PunctualLight& light, double radius) {
   const double intensity = luminance(light.intensity);
-  if (light.kind == PunctualLight::Kind::kSpot) return 2 * std::numbers::pi * intensity * (1 - light.cos_outer);
-  return 4 * std::numbers::pi * intensity;
+  if (light.kind == PunctualLight::Kind::kDirectional) return std::numbers::pi * radius * radius * intensity;
+  if (light.kind == PunctualLight::Kind::kPoint) return 4 * std::numbers::pi * intensity;
+  // Full inside the inner cone; between the cones t^2 averages to a third over the cosine.
+  return 2 * std::numbers::pi * intensity * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
 }
 
 void collect_triangles(const Surfaces& surfaces, std::uint32_t instance, Emitters& emitters) {
   const Mesh& mesh = surfaces.scene().meshes[surfaces.scene().instances[instance].mesh];
   const Material& material = surfaces.scene().materials[mesh.material];
   emitters.first_of_instance.push_back(kNone);
+  if (material.is_switched_off) emitters.declared_triangles += mesh.triangles.size();
   if (is_black(material.emission)) return;
   emitters.first_of_instance.back() = static_cast<std::uint32_t>(emitters.slot.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -67,7 +69,15 @@ std::uint32_t Emitters::find(std::uint32_t instance, std::uint32_t triangle) con
   return first == kNone ? kNone : slot[first + triangle];
 }
 
-Emitters find_emitters(const Surfaces& surfaces) {
+Spectrum intensity(const PunctualLight& light, const Vec3& way) {
+  if (light.kind != PunctualLight::Kind::kSpot) return light.intensity;
+  // KHR_lights_punctual: linear in the cosine between the cones, squared.
+  const float width = std::max(0.001F, light.cos_inner - light.cos_outer);
+  const float t = std::clamp((dot(way, light.direction) - light.cos_outer) / width, 0.0F, 1.0F);
+  return light.intensity * (t * t);
+}
+
+Emitters find_emitters(const Surfaces& surfaces, float radius) {
   Emitters emitters;
   for (std::uint32_t i = 0; i < surfaces.scene().instances.size(); ++i) collect_triangles(surfaces, i, emitters);
   for (const PunctualLight& light : surfaces.scene().lights) {
@@ -75,12 +85,12 @@ Emitters find_emitters(const Surfaces& surfaces) {
   }
   std::vector<double> flux;
   for (const EmissiveTriangle& t : emitters.triangles) flux.push_back(luminous_flux(t));
-  for (const PunctualLight& light : emitters.punctual) flux.push_back(luminous_flux(light));
+  for (const PunctualLight& light : emitters.punctual) flux.push_back(luminous_flux(light, radius));
   for (const double f : flux) emitters.total_flux += f;
+  // A spot light whose cone is a line has intensity but no flux.
+  const auto share = [&](double f) { return emitters.total_flux > 0 ? 0.9 * f / emitters.total_flux : 0; };
   std::vector<double> weights;
-  for (const double f : flux) {
-    weights.push_back(0.9 * f / emitters.total_flux + 0.1 / static_cast<double>(flux.size()));
-  }
+  for (const double f : flux) weights.push_back(share(f) + 0.1 / static_cast<double>(flux.size()));
   emitters.choice = DiscreteDistribution(weights);
   return emitters;
 }
@@ -98,15 +108,7 @@ PunctualArrival arrive(const PunctualLight& light, const Vec3& point, float scen
   if (!(squared > 0)) return arrival;
   arrival.direction = offset / std::sqrt(squared);
   arrival.target = light.position;
-  float falloff = 1;
-  if (light.kind == PunctualLight::Kind::kSpot) {
-    // KHR_lights_punctual: linear in the cosine between the cones, squared.
-    const float cosine = -dot(arrival.direction, light.direction);
-    const float width = std::max(0.001F, light.cos_inner - light.cos_outer);
-    const float t = std::clamp((cosine - light.cos_outer) / width, 0.0F, 1.0F);
-    falloff = t * t;
-  }
-  arrival.irradiance = light.intensity * (falloff / squared);
+  arrival.irradiance = intensity(light, -arrival.direction) / squared;
   return arrival;
 }
 

@@ -25,8 +25,8 @@ struct Emitters {
   std::vector<EmissiveTriangle> triangles;
   std::vector<PunctualLight> punctual;
   DiscreteDistribution choice;           // over triangles, then punctual lights
-  double total_flux = 0;                 // lumens of triangles and point lights
-  std::size_t declared_triangles = 0;    // triangles of materials that emit, zero power included
+  double total_flux = 0;                 // lm, of all
+  std::size_t declared_triangles = 0;    // of materials that emit or are switched off
 
   std::size_t size() const { return triangles.size() + punctual.size(); }
   /// The triangle's index in `triangles`, or kNone.
@@ -36,8 +36,12 @@ struct Emitters {
   std::vector<std::uint32_t> slot;               // per triangle of emitting instances
 };
 
-/// Collects the emitters. Zero-power ones are left out of `triangles` but counted. Cost: O(emissive triangles).
-Emitters find_emitters(const Surfaces& surfaces);
+/// Collects the emitters. Zero-power ones are left out of `triangles` but counted. `radius` is the scene's: a directional light
+/// counts with what passes through a disk that large. Cost: O(emissive triangles).
+Emitters find_emitters(const Surfaces& surfaces, float radius);
+
+/// What a point or spot light sends in unit direction `way`, cd.
+Spectrum intensity(const PunctualLight& light, const Vec3& way);
 
 /// Irradiance per unit cosine, lux, that a punctual light gives at `point` unoccluded, and the direction to it.
 struct PunctualArrival {

@@ -179,6 +179,7 @@ Result<GltfUvSlots> read_material(const tinygltf::Material& source, TextureReade
   const auto* strength = extension(source.extensions, "KHR_materials_emissive_strength");
   const bool glows = source.emissiveFactor.size() == 3;
   material.emission = glows ? spectrum(source.emissiveFactor, number(strength, "emissiveStrength", 1)) : Spectrum();
+  material.is_switched_off = glows && is_black(material.emission) && !is_black(spectrum(source.emissiveFactor, 1));
   if (base.texture >= 0) {
     RADFARM_TRY(material.reflectance_texture, textures.read(base.texture));
     slots[0] = base.uv;

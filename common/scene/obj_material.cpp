@@ -49,9 +49,18 @@ class LibraryReader {
  public:
   LibraryReader(const std::filesystem::path& folder, Scene& scene) : folder_(folder), scene_(scene) {}
 
-  Status read(const std::string& name, ObjMaterials& materials) {
+  /// False when there is no such file.
+  Result<bool> read(const std::string& name, ObjMaterials& materials) {
     RADFARM_TRY(const std::filesystem::path path, path_of_name(name));
-    RADFARM_TRY(const std::string text, read_file(folder_ / path, limits::kSceneFileBytes));
+    const Result<std::string> text = read_file(folder_ / path, limits::kSceneFileBytes);
+    if (!text && text.error().code == Code::kNotFound) return false;
+    if (!text) return tl::unexpected(text.error());
+    RADFARM_TRY_STATUS(add_materials(*text, path, materials));
+    return true;
+  }
+
+ private:
+  Status add_materials(const std::string& text, const std::filesystem::path& path, ObjMaterials& materials) {
     if (text.find('\0') != std::string::npos)
       return fail(Code::kInvalidArgument, path.string() + ": is not plain text");
     const auto parsed = parse_mtl(text);
@@ -69,7 +78,6 @@ class LibraryReader {
     return {};
   }
 
- private:
   static Status check_range(const std::string& key, const SpectrumD& value, double highest) {
     if (is_finite(value) && min_component(value) >= 0 && max_component(value) <= highest) return {};
     std::ostringstream message;
@@ -165,9 +173,10 @@ Result<ObjMaterials> read_obj_materials(const std::filesystem::path& folder, con
   LibraryReader reader(folder, scene);
   for (const ObjScan::Library& library : scan.libraries) {
     for (const std::string& name : library_names(folder, library.name)) {
-      if (const Status status = reader.read(name, materials); !status) {
-        return annotate(status.error(), "line " + std::to_string(library.line) + ": mtllib " + name);
-      }
+      const std::string line = std::to_string(library.line);
+      const Result<bool> is_there = reader.read(name, materials);
+      if (!is_there) return annotate(is_there.error(), "line " + line + ": mtllib " + name);
+      if (!*is_there) add_note(scene, "Line " + line + ": material library '" + name + "' does not exist.");
     }
   }
   Material otherwise;

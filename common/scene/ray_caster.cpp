@@ -182,10 +182,10 @@ RayCaster::RayCaster(const Surfaces& surfaces) : tree_(std::make_unique<Tree>(su
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster::~RayCaster() = default;
 
-std::optional<Hit> RayCaster::closest(const Ray& ray, std::uint64_t key) const {
+std::optional<Hit> RayCaster::closest(const Ray& ray, std::uint64_t key, float reach) const {
   Query query(*tree_->surfaces, key);
   RTCRayHit ray_hit;
-  ray_hit.ray = make_ray(ray.origin, ray.direction, std::numeric_limits<float>::infinity());
+  ray_hit.ray = make_ray(ray.origin, ray.direction, reach);
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtc::intersect(tree_->top, query.base, ray_hit);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,9 +22,9 @@ class RayCaster {
   RayCaster(RayCaster&&) noexcept;
   ~RayCaster();
 
-  /// The nearest surface along a unit ray. A surface with coverage a stops the ray with probability a, decided by
+  /// The nearest surface along a unit ray, up to `reach`. A surface with coverage a stops the ray with probability a, decided by
   /// `key` and the triangle, so the answer does not depend on the order in which triangles are tested.
-  std::optional<Hit> closest(const Ray& ray, std::uint64_t key) const;
+  std::optional<Hit> closest(const Ray& ray, std::uint64_t key, float reach = std::numeric_limits<float>::infinity()) const;
 
   /// The share of light that passes from one point to another: 0 when blocked, else the product of (1 - coverage).
   /// Both ends must already be off the surfaces they belong to (leave()).

@@ -42,6 +42,7 @@ struct Material {
   float alpha = 1;                           // coverage; times the reflectance texture's alpha and the vertex alpha
   float alpha_cutoff = 0.5F;                 // kMask: coverage is 1 at or above, else 0
   bool folds_gloss_into_diffuse = false;     // the file describes more than a Lambertian surface
+  bool is_switched_off = false;              // a lamp of no power: the file gives an emission, and 0 as its strength
 };
 
 /// Triangles of one material in their own coordinates. Optional arrays are empty or as long as `positions`.

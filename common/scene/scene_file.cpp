@@ -10,7 +10,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 // Records as stored: fixed-size fields without padding, so equal scenes give equal bytes.
 struct TextureRecord {
@@ -22,7 +22,7 @@ struct MaterialRecord {
   std::array<float, 3> emission;
   std::uint32_t emission_texture, emission_uv, emits_from_both_sides, alpha_mode;
   float alpha, alpha_cutoff;
-  std::uint32_t folds_gloss_into_diffuse;
+  std::uint32_t folds_gloss_into_diffuse, is_switched_off;
 };
 struct MeshRecord {
   std::uint64_t vertices, triangles;
@@ -132,7 +132,7 @@ std::vector<MaterialRecord> material_records(const Scene& scene) {
     records.push_back({stored(m.reflectance), m.reflectance_texture, m.reflectance_uv, stored(m.emission),
                        m.emission_texture, m.emission_uv, m.emits_from_both_sides ? 1U : 0U,
                        static_cast<std::uint32_t>(m.alpha_mode), m.alpha, m.alpha_cutoff,
-                       m.folds_gloss_into_diffuse ? 1U : 0U});
+                       m.folds_gloss_into_diffuse ? 1U : 0U, m.is_switched_off ? 1U : 0U});
   }
   return records;
 }
@@ -202,13 +202,14 @@ Status get_materials(const FlatFileReader& file, Scene& scene) {
   RADFARM_TRY(auto names, get_texts(file, "materials.names", records.size()));
   for (std::size_t i = 0; i < records.size(); ++i) {
     const MaterialRecord& r = records[i];
-    if (r.alpha_mode > 2 || r.emits_from_both_sides > 1 || r.folds_gloss_into_diffuse > 1) {
+    if (r.alpha_mode > 2 || r.emits_from_both_sides > 1 || r.folds_gloss_into_diffuse > 1 ||
+        r.is_switched_off > 1) {
       return damaged("a material has an unknown mode");
     }
     scene.materials.push_back({std::move(names[i]), spectrum(r.reflectance), r.reflectance_texture, r.reflectance_uv,
                                spectrum(r.emission), r.emission_texture, r.emission_uv, r.emits_from_both_sides == 1,
                                Material::Alpha(r.alpha_mode), r.alpha, r.alpha_cutoff,
-                               r.folds_gloss_into_diffuse == 1});
+                               r.folds_gloss_into_diffuse == 1, r.is_switched_off == 1});
   }
   return {};
 }

@@ -44,9 +44,12 @@ Status add_obj_files(const std::filesystem::path& scene, Paths& files) {
   for (const ObjScan::Library& library : scan.libraries) {
     for (const std::string& name : library_names(scene.parent_path(), library.name)) {
       RADFARM_TRY(const std::filesystem::path path, path_of_name(name));
+      const Result<std::string> mtl = read_file(scene.parent_path() / path, limits::kSceneFileBytes);
+      // load_scene() does without it, too.
+      if (!mtl && mtl.error().code == Code::kNotFound) continue;
+      if (!mtl) return tl::unexpected(mtl.error());
       add_once(files, path);
-      RADFARM_TRY(const std::string mtl, read_file(scene.parent_path() / path, limits::kSceneFileBytes));
-      for (const std::string& texture : texture_names(mtl)) {
+      for (const std::string& texture : texture_names(*mtl)) {
         RADFARM_TRY(const std::filesystem::path file, path_of_name((path.parent_path() / texture).generic_string()));
         add_once(files, file);
       }

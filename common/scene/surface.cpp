@@ -63,6 +63,18 @@ TriangleVertices Surfaces::triangle(std::uint32_t instance, std::uint32_t triang
   return vertices;
 }
 
+Hit Surfaces::hit_at(std::uint32_t instance, std::uint32_t triangle, const Vec3& position) const {
+  const TriangleVertices whole = this->triangle(instance, triangle);
+  const Vec3d e1 = to_double(whole[1]) - to_double(whole[0]), e2 = to_double(whole[2]) - to_double(whole[0]);
+  const Vec3d d = to_double(position) - to_double(whole[0]), normal = cross(e1, e2);
+  const double area = dot(normal, normal);
+  double b = std::max(0.0, dot(cross(d, e2), normal) / area), c = std::max(0.0, dot(cross(e1, d), normal) / area);
+  const double sum = b + c;
+  if (sum > 1) b /= sum, c /= sum;
+  const auto u = static_cast<float>(b), v = static_cast<float>(c);
+  return is_mirrored(instance) ? Hit{instance, triangle, v, u, 0} : Hit{instance, triangle, u, v, 0};
+}
+
 SurfacePoint Surfaces::at(const Hit& hit) const {
   const Instance& placed = scene_->instances[hit.instance];
   const Placement& placement = placements_[hit.instance];

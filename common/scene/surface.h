@@ -45,6 +45,8 @@ class Surfaces {
   TriangleVertices triangle(std::uint32_t instance, std::uint32_t triangle) const;
   /// All the geometry at a hit. About 50 ns.
   SurfacePoint at(const Hit& hit) const;
+  /// The hit that lies at a position of the triangle's plane; clamped to the triangle.
+  Hit hit_at(std::uint32_t instance, std::uint32_t triangle, const Vec3& position) const;
   /// rho of the surface in [0, 1], textures and vertex colours included.
   Spectrum reflectance(const SurfacePoint& point) const;
   /// Radiance emitted from the side that `point` shows, cd/m^2; black from the back of a single-sided emitter.

@@ -32,8 +32,8 @@ World::World(Scene loaded)
     : scene(std::move(loaded)),
       surfaces(scene),
       caster(surfaces),
-      emitters(find_emitters(surfaces)),
       bounds(find_bounds(surfaces)),
-      radius(radius_about_origin(bounds)) {}
+      radius(radius_about_origin(bounds)),
+      emitters(find_emitters(surfaces, radius)) {}
 
 }  // namespace radfarm

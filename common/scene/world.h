@@ -16,9 +16,9 @@ struct World {
   const Scene scene;
   const Surfaces surfaces;
   const RayCaster caster;
-  const Emitters emitters;
   const Box3 bounds;   // of all instances
   const float radius;  // of a sphere around the origin that holds them
+  const Emitters emitters;
 };
 
 }  // namespace radfarm

@@ -53,6 +53,11 @@ std::uint32_t PerspectiveGrid::cell_at(const Vec3& position) const {
   return (cell(at.z, slices) * rows + cell(at.y, rows)) * columns + cell(at.x, columns);
 }
 
+float PerspectiveGrid::cell_width(const Vec3& position) const {
+  const float z = std::clamp(dot(position - camera.position, camera.forward), near, far);
+  return 2 * half_extent(*this, z).x / static_cast<float>(columns);
+}
+
 Interpolation interpolate(const PerspectiveGrid& grid, const Vec3& position) {
   const Vec3 at = grid.locate(position);
   const std::array<std::uint32_t, 3> cells = {grid.columns, grid.rows, grid.slices};

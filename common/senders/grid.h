@@ -30,6 +30,8 @@ struct PerspectiveGrid {
   /// Continuous coordinates of a point, in cells; points outside are moved to the nearest border.
   Vec3 locate(const Vec3& position) const;
   std::uint32_t cell_at(const Vec3& position) const;
+  /// How wide a cell is at the depth of a point, m: what lies closer to the point than that, a vertex cannot know of.
+  float cell_width(const Vec3& position) const;
 };
 
 /// The four vertices whose values a point interpolates, and their weights, >= 0, that add up to 1: the conforming split of

@@ -10,38 +10,57 @@ namespace radfarm {
 namespace {
 
 constexpr std::uint32_t kMaxChildren = 4;
+// The likely irradiance is this share of the bound at least.
+constexpr float kBoundShare = 0.1F;
 
 }  // namespace
 
 SenderOutline outline_of(const SenderTree& tree, std::uint32_t id) {
   const SenderNode& node = tree.nodes[id];
-  const Vec3 normal = node.patch == kNone ? Vec3(0, 0, 0) : tree.patches[node.patch].normal;
-  const Vec3 half = node.bounds.size() * 0.5F;
-  return {node.bounds.center(), half, length(half), node.area, normal, node.power};
+  SenderOutline outline;
+  outline.center = node.bounds.center();
+  outline.half = node.bounds.size() * 0.5F;
+  outline.radius = length(outline.half);
+  outline.max_radiosity = node.max_radiosity;
+  outline.power = node.power;
+  outline.emits = is_black(node.emitted_power) ? 0 : 1;
+  if (node.patch != kNone) {
+    outline.normal = tree.patches[node.patch].normal;
+    outline.plane = dot(outline.normal, tree.patches[node.patch].vertices[0]);
+  }
+  return outline;
 }
 
-float likely_irradiance(const SenderOutline& sender, const Vec3& position, const Vec3& normal) {
+JudgedIrradiance judge_irradiance(const SenderOutline& sender, const Vec3& position, const Vec3& normal, float near_distance) {
   const Vec3 offset = sender.center - position;
-  const float distance = std::max(length(offset), sender.radius);
-  if (!(distance > 0)) return 0;
-  // Some point of the sphere stands this high above the receiver's horizon.
-  const float cosine_x = std::min(1.0F, (dot(normal, offset) + sender.radius) / distance);
-  if (!(cosine_x > 0)) return 0;
-  const auto beyond = [](float to_center, float half) { return std::max(0.0F, std::fabs(to_center) - half); };
+  const float to_center = length(offset), distance = std::max(to_center, sender.radius);
+  if (sender.emits == 0 && to_center + sender.radius < near_distance) return {};
+  if (!(distance > 0)) return {};
+  // The box's highest point above the receiver's horizon.
+  const float highest = dot(normal, offset) + std::fabs(normal.x) * sender.half.x + std::fabs(normal.y) * sender.half.y +
+                        std::fabs(normal.z) * sender.half.z;
+  if (!(highest > 0)) return {};
+  const auto beyond = [](float along, float half) { return std::max(0.0F, std::fabs(along) - half); };
   const Vec3 gap(beyond(offset.x, sender.half.x), beyond(offset.y, sender.half.y), beyond(offset.z, sender.half.z));
   const float nearest = length(gap);
+  const float cosine_x = nearest > highest ? highest / nearest : 1;
   float cosine_y = 1;
   if (sender.normal != Vec3(0, 0, 0)) {
-    const float height = -dot(sender.normal, offset);
-    if (!(height + 1e-4F * sender.radius > 0)) return 0;  // behind the plane of the patch
-    cosine_y = nearest > height ? std::max(height / nearest, 0.02F) : 1;
+    const float height = dot(sender.normal, position) - sender.plane;
+    if (!(height > 0)) return {};  // behind the plane of the patch
+    cosine_y = nearest > height ? height / nearest : 1;
   }
-  // However near, a sender of even radiosity gives no more than P / A.
-  const float reach = std::max(nearest * nearest, std::min(sender.radius * sender.radius, sender.area / kPi));
-  return sender.power * cosine_x * cosine_y / (kPi * reach);
+  // However near, a sender gives no more than its largest radiosity.
+  const float counted = sender.emits != 0 ? nearest : std::max(nearest, near_distance);
+  const float squared = kPi * counted * counted;
+  const float bound = squared * sender.max_radiosity > sender.power ? sender.power / squared : sender.max_radiosity;
+  const float typical = std::min(sender.max_radiosity, sender.power / (kPi * distance * distance));
+  const float cosines = cosine_x * cosine_y;
+  return {(kBoundShare * bound + (1 - kBoundShare) * typical) * cosines, bound * cosines};
 }
 
-DrawnPatch draw_patch(const SenderTree& tree, std::uint32_t id, const Vec3& position, const Vec3& normal, float choice) {
+DrawnPatch draw_patch(const SenderTree& tree, std::uint32_t id, const Vec3& position, const Vec3& normal,
+                      float near_distance, float choice) {
   float probability = 1;
   while (tree.nodes[id].patch == kNone) {
     const SenderNode& node = tree.nodes[id];
@@ -49,7 +68,9 @@ DrawnPatch draw_patch(const SenderTree& tree, std::uint32_t id, const Vec3& posi
     std::array<float, kMaxChildren> likely{};
     float total = 0;
     for (std::uint32_t i = 0; i < node.child_count; ++i) {
-      total += likely[i] = likely_irradiance(outline_of(tree, node.first_child + i), position, normal);
+      const SenderOutline outline = outline_of(tree, node.first_child + i);
+      const JudgedIrradiance gives = judge_irradiance(outline, position, normal, near_distance);
+      total += likely[i] = gives.likely;
     }
     if (!(total > 0)) return {id, 0};
     float left = choice * total;

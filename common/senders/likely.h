@@ -11,15 +11,24 @@ struct SenderOutline {
   Vec3 center{0, 0, 0};
   Vec3 half{0, 0, 0};       // of the bounding box's size, m
   float radius = 0;         // of a sphere around the center that holds the sender, m
-  float area = 0;           // m^2
+  float max_radiosity = 0;  // luminance, lm/m^2
   Vec3 normal{0, 0, 0};     // unit for patches; zero for clusters, which have no single one
+  float plane = 0;          // of patches: normal . x for points x of it
   float power = 0;          // luminance, lm
+  std::uint32_t emits = 0;  // 1: some of it is emitted, so near parts count as well
 };
+static_assert(sizeof(SenderOutline) == 14 * sizeof(float), "stored in grid files: no padding");
 SenderOutline outline_of(const SenderTree& tree, std::uint32_t node);
 
-/// The irradiance (luminance, lux) that the sender is likely to give a point with this normal, unoccluded. Within a small
-/// factor of the truth; 0 only where it certainly gives nothing.
-float likely_irradiance(const SenderOutline& sender, const Vec3& position, const Vec3& normal);
+/// Irradiance (luminance, lux) that a sender may give a point, unoccluded.
+struct JudgedIrradiance {
+  float likely = 0;  // within a small factor of the truth where the sender is far; never far below `bound`
+  float bound = 0;   // it gives no more; 0 only where it certainly gives nothing
+};
+
+/// Judges by bounding box, power and largest radiosity. Parts of a sender that only reflects do not count where they are closer
+/// than `near_distance`: near light, (gather.4), brings those. About 10 ns.
+JudgedIrradiance judge_irradiance(const SenderOutline& sender, const Vec3& position, const Vec3& normal, float near_distance);
 
 /// One patch of a sender, drawn for one receiving point.
 struct DrawnPatch {
@@ -29,6 +38,7 @@ struct DrawnPatch {
 
 /// Goes down the tree from `node`, at each cluster to a child with a probability in proportion to what it is likely to give
 /// the point, so that a small patch close by is drawn as often as its light is worth. (senders.5) O(depth).
-DrawnPatch draw_patch(const SenderTree& tree, std::uint32_t node, const Vec3& position, const Vec3& normal, float choice);
+DrawnPatch draw_patch(const SenderTree& tree, std::uint32_t node, const Vec3& position, const Vec3& normal,
+                      float near_distance, float choice);
 
 }  // namespace radfarm

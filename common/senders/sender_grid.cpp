@@ -9,7 +9,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kPrepassSamples = 2;
 constexpr std::uint32_t kReceiversPerCell = 16;
 constexpr std::uint32_t kMaxCellsPerAxis = 1024;

@@ -8,7 +8,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 float sent(const RadiositySolution& solution, std::uint32_t node) {
   return luminance(solution.hierarchy.nodes[node].emitted_power) + luminance(solution.reflected_power[node]);
@@ -28,7 +28,7 @@ SenderNode make_node(const RadiositySolution& solution, std::uint32_t id, bool i
     const Patch& patch = solution.hierarchy.patches[node.patch];
     sender.patch = static_cast<std::uint32_t>(tree.patches.size());
     tree.patches.push_back({patch.vertices, patch.normal, node.area, patch.offset, patch.instance, patch.triangle,
-                            patch.is_textured_emitter});
+                            patch.is_front, is_black(patch.emission) ? 0U : 1U, patch.is_textured_emitter});
   }
   return sender;
 }
@@ -80,6 +80,13 @@ SenderTree make_sender_tree(const RadiositySolution& solution) {
     tree.nodes[i] = node;
     source.insert(source.end(), children.begin(), children.end());
     tree.nodes.resize(source.size());
+  }
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    SenderNode& node = tree.nodes[i];
+    node.max_radiosity = node.child_count == 0 ? node.power / node.area : 0;
+    for (std::uint32_t c = 0; c < node.child_count; ++c) {
+      node.max_radiosity = std::max(node.max_radiosity, tree.nodes[node.first_child + c].max_radiosity);
+    }
   }
   return tree;
 }

@@ -25,6 +25,7 @@ struct SenderNode {
   std::uint32_t child_count = 0;
   std::uint32_t patch = kNone;    // kNone for clusters and for patches in parts, which have children
   float power = 0;                // luminance of both powers together, lm
+  float max_radiosity = 0;        // luminance, lm/m^2: the largest of all patches below
 };
 
 struct SenderPatch {
@@ -34,6 +35,8 @@ struct SenderPatch {
   float offset = 0;
   std::uint32_t instance = 0;
   std::uint32_t triangle = 0;
+  std::uint32_t is_front = 1;             // whether it is the triangle's front side
+  std::uint32_t emits = 0;
   std::uint32_t is_textured_emitter = 0;
 };
 

@@ -18,7 +18,7 @@ constexpr float kCutShare = 0.5F;       // of the threshold: how coarse a sender
 constexpr int kLobesPerSide = 12;       // octahedral bins of directions
 
 // All senders that a vertex interpolates may together change radiance by this many thresholds.
-constexpr float kMaxTail = 10;
+constexpr float kMaxTail = 5;
 // A sender that the vertex's lines saw hidden is sampled as if this share of it were seen.
 constexpr float kLeastPrior = 0.2F;
 
@@ -53,7 +53,7 @@ float unoccluded(const SenderNode& node, const ReceiverRegion& region) {
 }
 
 Observation observe(const VertexContext& context, const std::vector<ReceiverPoint>& receivers, std::uint32_t id,
-                    std::uint32_t samples, std::uint64_t key) {
+                    std::uint32_t samples, float near_distance, std::uint64_t key) {
   Observation seen;
   seen.kernel_min = std::numeric_limits<float>::infinity();
   const float radius = length(context.tree.nodes[id].bounds.size()) / 2;
@@ -76,8 +76,11 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
       continue;
     }
     ++seen.above;
-    seen.kernel_min = std::min(seen.kernel_min, k);
+    // What only reflects and is near is not a sender's to give: near light brings it.
+    const bool is_near = context.tree.patches[y.patch].emits == 0 && squared < near_distance * near_distance;
+    seen.kernel_min = std::min(seen.kernel_min, is_near ? 0 : k);
     seen.kernel_max = std::max(seen.kernel_max, k);
+    if (is_near) continue;
     kernel += static_cast<double>(k);
     angle += static_cast<double>(std::min(1.0F, radius / std::sqrt(squared)));
     direction += to_double(normalize(offset)) * static_cast<double>(k);
@@ -88,7 +91,9 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
     seen.kernel_min = seen.visibility = 0;
     return seen;
   }
-  seen.kernel = static_cast<float>(kernel / seen.above);
+  // However near, a sender gives no more than its largest radiosity.
+  const SenderNode& node = context.tree.nodes[id];
+  seen.kernel = std::min(static_cast<float>(kernel / seen.above), node.max_radiosity / node.power);
   seen.angle = static_cast<float>(angle / seen.above);
   seen.visibility = static_cast<float>(passed / kernel);
   seen.direction = to_float(normalize(direction));
@@ -161,7 +166,10 @@ Judged judge(const SenderNode& node, std::uint32_t id, std::uint32_t samples, co
     const float unknown = radiance * seen.hidden_kernel;
     return {id, samples, unknown, unknown, 1, 0};
   }
-  return {id, samples, radiance * kernel_change * seen.visibility, is_partial ? radiance * seen.kernel : 0,
+  // N lines that all met the same say that one in N + 2 others may not.
+  const float unseen = is_partial ? 1 : 1 / static_cast<float>(seen.above + 2);
+  return {id, samples, radiance * kernel_change * std::max(seen.visibility, unseen),
+          radiance * seen.kernel * unseen,
           kLeastPrior + (1 - kLeastPrior) * seen.visibility, seen.visibility};
 }
 
@@ -173,6 +181,14 @@ void distrust_emitter(const SenderNode& node, const ReceiverRegion& region, floa
   judged.form_factor_change = std::max(judged.form_factor_change, unoccluded_radiance);
   judged.visibility_change = std::max(judged.visibility_change, unoccluded_radiance);
   judged.prior = 1;
+}
+
+/// Whether a part of the sender may be nearer than `near_distance` to a point of the region.
+bool may_be_near(const SenderNode& node, const ReceiverRegion& region, float near_distance) {
+  const Vec3 offset = region.center - node.bounds.center(), half = node.bounds.size() * 0.5F;
+  const auto beyond = [](float along, float extent) { return std::max(0.0F, std::fabs(along) - extent); };
+  const Vec3 gap(beyond(offset.x, half.x), beyond(offset.y, half.y), beyond(offset.z, half.z));
+  return length(gap) < near_distance + region.radius;
 }
 
 /// The change above which a sender is critical: the threshold, or less where many small changes would add up to more than
@@ -208,6 +224,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
   const float max_irradiance = kCutShare * context.settings.threshold * kPi / std::max(reflectance, 1e-3F);
   const std::vector<std::uint32_t> senders =
       cut_senders(context.tree, region, max_irradiance, context.settings.max_senders);
+  const float near_distance = context.grid.cell_width(region.center);
   double total = 0;
   for (const std::uint32_t id : senders) total += static_cast<double>(unoccluded(context.tree.nodes[id], region));
 
@@ -218,7 +235,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     const double share = total > 0 ? static_cast<double>(unoccluded(node, region)) / total : 0;
     const auto samples = std::clamp(static_cast<std::uint32_t>(share * context.settings.vertex_samples), kMinSamples,
                                     kMaxSamples);
-    judged.push_back(judge(node, id, samples, observe(context, receivers, id, samples, combine(key_of(id), 1)), reflectance));
+    judged.push_back(judge(node, id, samples, observe(context, receivers, id, samples, near_distance, combine(key_of(id), 1)), reflectance));
     distrust_emitter(node, region, reflectance, judged.back());
   }
   const float threshold = critical_change(judged, context.settings.threshold);
@@ -231,12 +248,16 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     critical.node = sender.node;
     critical.resample_form_factor = sender.form_factor_change > threshold ? 1 : 0;
     critical.resample_visibility = sender.visibility_change > threshold ? 1 : 0;
+    // Which part of it is near differs from point to point.
+    if (sender.change() > threshold && may_be_near(node, region, near_distance)) {
+      critical.resample_form_factor = critical.resample_visibility = 1;
+    }
     critical.outline = outline_of(context.tree, sender.node);
     critical.prior = sender.prior;
     critical.visibility = sender.visibility;
     const bool needs_both = critical.resample_form_factor != 0 && critical.resample_visibility != 0;
     if (!needs_both) {
-      measure(node, observe(context, receivers, sender.node, sender.samples, combine(key_of(sender.node), 2)), critical);
+      measure(node, observe(context, receivers, sender.node, sender.samples, near_distance, combine(key_of(sender.node), 2)), critical);
     }
     if (critical.resample_form_factor == 0 && critical.resample_visibility == 0) {
       lobes.add(critical.direction, critical.direct * critical.visibility, critical.indirect * critical.visibility);

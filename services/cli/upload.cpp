@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/utf8.h"
 #include "rpc/blob_client.h"
 #include "scene/scene_files.h"
 
@@ -24,6 +25,8 @@ Result<std::vector<LocalFile>> open_files(const std::filesystem::path& scene) {
   RADFARM_TRY(const std::vector<std::filesystem::path> paths, scene_files(scene));
   std::vector<LocalFile> files;
   for (const std::filesystem::path& path : paths) {
+    // The transport cannot carry such a name; the coordinator would not even see it.
+    if (!is_utf8(path.string())) return fail(Code::kInvalidArgument, "a file's name is not UTF-8: " + path.string());
     RADFARM_TRY(MappedFile contents, MappedFile::open(scene.parent_path() / path));
     files.push_back({{path.generic_string(), rpc::blob_ref(contents.bytes())}, std::move(contents)});
   }
@@ -57,7 +60,7 @@ Result<JobStatus> submit_scene(FarmClient& client, const std::filesystem::path& 
   RADFARM_TRY(const std::vector<LocalFile> files, open_files(scene));
   RADFARM_TRY_STATUS(upload_missing(client, files, events));
   JobSpec spec;
-  spec.display_name = scene.filename().string().substr(0, 100);
+  spec.display_name = utf8_prefix(scene.filename().string(), 100);
   for (const LocalFile& local : files) spec.files.push_back(local.file);
   spec.entry_path = files.front().file.path;
   spec.render_request_json = to_json(request).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

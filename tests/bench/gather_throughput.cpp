@@ -44,9 +44,9 @@ std::vector<VisibilityRay> draw_rays(const GatherContext& context, const Film& f
             context.senders.at(choose_vertex(interpolate(context.senders.grid(), point.position), random.uniform()));
         std::vector<double> weights;
         for (const CriticalSender& c : senders.critical) {
-          weights.push_back(c.resample_visibility != 0
-                                ? static_cast<double>(c.prior * likely_irradiance(c.outline, point.position, point.shading_normal))
-                                : 0);
+          const float near = context.senders.grid().cell_width(point.position);
+          const float likely = judge_irradiance(c.outline, point.position, point.shading_normal, near).likely;
+          weights.push_back(c.resample_visibility != 0 ? static_cast<double>(c.prior * likely) : 0);
         }
         const DiscreteDistribution choice(weights);
         if (!(choice.total() > 0)) continue;
@@ -78,7 +78,8 @@ int run(const char* path, int width) {
   const SenderTree tree = make_sender_tree(solution);
   const SenderGrid grid(classify_visible(world, tree, camera->camera, settings.width, settings.height, settings.senders, 1),
                         world, tree, settings.senders, 1);
-  const GatherContext context{world, tree, grid, settings.senders};
+  const SenderLookup lookup(world, tree);
+  const GatherContext context{world, tree, lookup, grid, settings.senders};
   const Film film{camera->camera, settings.width, settings.height, 1};
 
   Counters counters;

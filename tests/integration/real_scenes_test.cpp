@@ -42,10 +42,8 @@ TEST(RealScenes, EveryOneLoadsOrNamesTheExtensionItRequires) {
   for (const path& file : scenes_below(*scenes)) {
     const Result<Scene> scene = load_scene(file);
     if (scene) continue;
-    // pirate.obj comes without its material library, which is an error that names it.
-    const bool has_no_materials = scene.error().message.find("pirate.mtl: cannot open") != std::string::npos;
     const bool needs_extension = scene.error().message.find("/extensionsRequired/") != std::string::npos;
-    EXPECT_TRUE(has_no_materials || needs_extension) << scene.error().message;
+    EXPECT_TRUE(needs_extension) << scene.error().message;
   }
 }
 

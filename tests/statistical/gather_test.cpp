@@ -63,7 +63,8 @@ struct Compared {
     settings.threshold = 0.01F * luminance(solution.reflected_power.at(0)) / (kPi * area);
     const SenderGrid senders(classify_visible(world, tree, film.camera, kWidth, kHeight, settings, 1), world, tree,
                              settings, 1);
-    const GatherContext context{world, tree, senders, settings};
+    const SenderLookup lookup(world, tree);
+    const GatherContext context{world, tree, lookup, senders, settings};
     gathered = mean_of(film, 16, [&](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
       return gather_radiance(context, ray, sampler, counters);
     });

@@ -158,6 +158,58 @@ TEST(Pipeline, EmittersWithoutPowerGiveABlackImageAndAWarning) {
   }
 }
 
+TEST(Pipeline, AnEmitterSwitchedOffByItsStrengthGivesABlackImageAndAWarning) {
+  const ChangedScene off("cornell", [](json& document) {
+    for (json& material : document["materials"]) {
+      material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 0;
+    }
+  });
+  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kPathTrace}) {
+    RenderRequest request = small_request();
+    request.integrator = integrator;
+    const Finished finished = render(off.path(), request);
+    for (const auto& [name, channel] : finished.image.channels) {
+      EXPECT_TRUE(std::all_of(channel.begin(), channel.end(), [](float v) { return v == 0; })) << name;
+    }
+    EXPECT_THAT((*finished.report)["warnings"].dump(), testing::HasSubstr("black"));
+  }
+}
+
+TEST(Pipeline, ASceneWithoutSurfacesIsRefusedForThat) {
+  const auto folder = TemporaryDirectory::create("radfarm-pipeline");
+  ASSERT_TRUE(folder.has_value());
+  const auto path = folder->path() / "points.obj";
+  ASSERT_TRUE(write_file_atomically(path, std::string("mtllib none.mtl\nv 0 0 0\np 1\n")).has_value());
+  const auto files = prepare(path, small_request());
+  ASSERT_FALSE(files);
+  EXPECT_EQ(files.error().code, Code::kInvalidArgument);
+  EXPECT_THAT(files.error().message, testing::HasSubstr("no triangles"));
+}
+
+double mean_of(const Image& image, const std::string& channel) {
+  const auto found = image.channels.find(channel);
+  EXPECT_NE(found, image.channels.end()) << channel;
+  double sum = 0;
+  for (const float value : found->second) sum += static_cast<double>(value);
+  return sum / static_cast<double>(image.pixel_count());
+}
+
+TEST(Pipeline, WithoutInterreflectionNothingIsSolvedAndDirectLightIsTheSame) {
+  RenderRequest request = small_request();
+  request.audit = false;
+  request.samples = 16;
+  const Finished whole = render(test::own_scene_path("cornell"), request);
+  request.effects = "-interreflection";
+  const Finished direct = render(test::own_scene_path("cornell"), request);
+  EXPECT_GT((*whole.report)["counts"]["radiosity_iterations"], 0);
+  EXPECT_EQ((*direct.report)["counts"]["radiosity_iterations"], 0);
+  EXPECT_EQ((*direct.report)["counts"]["links"], 0);
+  const double expected = mean_of(whole.image, "direct.G");
+  EXPECT_GT(expected, 0);
+  EXPECT_NEAR(mean_of(direct.image, "direct.G"), expected, 0.03 * expected);
+  EXPECT_EQ(mean_of(direct.image, "indirect.G"), 0);
+}
+
 TEST(Pipeline, RefusesTasksThatTheViewDoesNotHaveAndResultsThatAreMissing) {
   RenderRequest request = small_request();
   request.audit = false;

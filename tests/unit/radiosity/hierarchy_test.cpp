@@ -1,5 +1,6 @@
 #include "radiosity/hierarchy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -107,6 +108,40 @@ TEST(Hierarchy, SubdivisionKeepsAreaPowerPlaneAndWinding) {
   }
   EXPECT_NEAR(area, static_cast<double>(before.area), 1e-6 * area);
   EXPECT_NEAR(power, luminance(SpectrumD(before.emitted_power)), 1e-6 * power);
+}
+
+/// How far inside a triangle a point of its plane lies: the least of its three weights.
+double depth_inside(const TriangleVertices& v, const Vec3& position) {
+  const Vec3d e1 = to_double(v[1]) - to_double(v[0]), e2 = to_double(v[2]) - to_double(v[0]);
+  const Vec3d d = to_double(position) - to_double(v[0]), normal = cross(e1, e2);
+  const double b = dot(cross(d, e2), normal) / dot(normal, normal), c = dot(cross(e1, d), normal) / dot(normal, normal);
+  return std::min({b, c, 1 - b - c});
+}
+
+TEST(Hierarchy, FindsThePartAPointLiesIn) {
+  const World world(test::own_scene("cornell"));
+  Hierarchy h = all_sides(world);
+  RandomSequence random(6);
+  for (const std::uint32_t leaf : std::vector(h.leaves)) {
+    EXPECT_EQ(part_at(h, leaf, h.patches[h.nodes[leaf].patch].vertices[1]), leaf);
+    // Each part in turn is cut again, and one of its own parts once more.
+    const std::uint32_t first = subdivide(h, leaf), cut = first + leaf % 4, second = subdivide(h, cut);
+    subdivide(h, second + (leaf / 4) % 4);
+    std::set<std::uint32_t> found;
+    for (int n = 0; n < 2000; ++n) {
+      const NodeSample s = sample_node(h, h.nodes[leaf], SampleBy::kArea, 0, {random.uniform(), random.uniform()});
+      const std::uint32_t part = part_at(h, leaf, s.position);
+      ASSERT_EQ(h.nodes[part].child_count, 0U);
+      // Positions and vertices are floats of about 1 m, parts down to a few cm: 1e-5 of a weight.
+      EXPECT_GT(depth_inside(h.patches[h.nodes[part].patch].vertices, s.position), -1e-5);
+      std::uint32_t top = part;
+      while (h.nodes[top].parent != kNone && top != leaf) top = h.nodes[top].parent;
+      EXPECT_EQ(top, leaf);
+      found.insert(part);
+    }
+    // The smallest have 1/64 of the area: to miss one in 2000 draws has a chance of 2e-14, times 4 parts and the leaves.
+    EXPECT_EQ(found.size(), 10U);
+  }
 }
 
 TEST(Hierarchy, SamplesLeavesInProportionToAreaAndToPower) {

@@ -42,7 +42,7 @@ TEST(Links, TwoPlatesExchangeTheirFormFactor) {
       if (power == 0) continue;
       for (const std::uint32_t receiver : h.leaves) {
         if (cannot_see(h, receiver, sender)) continue;
-        const Link link = evaluate_link(world, h, receiver, sender, true, false, 16, seed);
+        const Link link = evaluate_link(world, h, receiver, sender, kEmittedPart, 16, seed);
         EXPECT_EQ(link.visibility, 1);
         arrived += static_cast<double>(link.emitted * h.nodes[receiver].area) * power;
       }
@@ -61,7 +61,7 @@ TEST(Links, WhatCannotBeSeenCarriesNothing) {
     for (const std::uint32_t b : h.leaves) {
       if (a == b || luminance(h.nodes[b].emitted_power) == 0 || !cannot_see(h, a, b)) continue;
       ++dark;
-      EXPECT_EQ(evaluate_link(world, h, a, b, true, false, 32, 1).emitted, 0);
+      EXPECT_EQ(evaluate_link(world, h, a, b, kEmittedPart, 32, 1).emitted, 0);
     }
     EXPECT_EQ(cannot_see(h, a, h.leaves[0]), cannot_see(h, h.leaves[0], a));
   }
@@ -84,7 +84,7 @@ TEST(Links, ABlockedLinkIsDark) {
   }
   ASSERT_NE(sender, kNone);
   ASSERT_NE(receiver, kNone);
-  const Link link = evaluate_link(world, h, receiver, sender, true, false, 32, 1);
+  const Link link = evaluate_link(world, h, receiver, sender, kEmittedPart, 32, 1);
   EXPECT_EQ(link.emitted, 0);
   EXPECT_EQ(link.visibility, 0);
   EXPECT_NEAR(link.occluder_distance, 1, 0.8);  // between 1 and sqrt(3) along a slanted line

@@ -59,6 +59,34 @@ TEST(Wire, NamesTheFieldThatIsWrong) {
   EXPECT_THAT(message_of(spec), HasSubstr("bytes in all"));
 }
 
+TEST(Wire, NamesAreShortPrintableUtf8) {
+  const auto refusal = [](const std::string& name) {
+    v1::RenderJobSpec message;
+    encode(small_spec(), message);
+    message.set_display_name(name);
+    const Result<JobSpec> parsed = parse(message);
+    EXPECT_TRUE(parsed || parsed.error().code == Code::kInvalidArgument);
+    return parsed ? std::string("accepted") : parsed.error().message;
+  };
+  EXPECT_EQ(refusal(""), "accepted");
+  EXPECT_EQ(refusal("Küche 厨房 🏠"), "accepted");
+  EXPECT_EQ(refusal(std::string(limits::kNameBytes, 'a')), "accepted");
+  EXPECT_THAT(refusal(std::string(limits::kNameBytes + 1, 'a')), HasSubstr("spec.display_name: has 201 bytes"));
+  for (const std::string& name : {std::string("a\nb"), std::string("\x1b[2J"), std::string("a\0b", 3),
+                                  std::string("a\x7f"), std::string("\xc2\x9b" "2J")}) {
+    EXPECT_EQ(refusal(name), "spec.display_name: has control characters");
+  }
+  EXPECT_EQ(refusal("K\xfc" "che"), "spec.display_name: is not UTF-8");
+}
+
+TEST(Wire, WorkerNamesArePrintableUtf8) {
+  v1::RegisterWorkerRequest message;
+  encode(WorkerHello{"host/1", "build", "fingerprint", 1}, message);
+  EXPECT_TRUE(parse(message));
+  message.set_name("host\n1");
+  EXPECT_FALSE(parse(message));
+}
+
 TEST(Wire, JobStatusComesBack) {
   JobStatus status{"id1", "room", JobState::kFailed, 9, 1700000000, {10, 4, 2, 3, 1, 0, "no worker"}, {}, {}};
   status.failure = {JobFailure::Reason::kTaskFailed, {Code::kDataLoss, "task 3: damaged"}};

@@ -1,7 +1,10 @@
 #include "scene/camera.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 
+#include "support/small_scenes.h"
 #include "unit/scene/scene_builder.h"
 
 namespace radfarm {
@@ -61,6 +64,43 @@ TEST(FrameScene, LooksIntoARoomFromInsideAndAtAnObjectFromOutside) {
   Scene object = *load_scene(scenes / "furnace.gltf");
   for (auto& t : object.meshes[0].triangles) std::swap(t[1], t[2]);
   EXPECT_GT(length(to_double(frame_scene(object).position) + object.origin), 2);
+}
+
+/// Which side of a room from (0, 0, 0) to (4, 3, 5) a test leaves open, in the order of SceneMaker::room().
+Scene room_without(const std::vector<std::size_t>& sides) {
+  test::SceneMaker maker;
+  const std::uint32_t grey = maker.material(Spectrum(0.5F));
+  Scene scene = maker.room(std::vector<std::uint32_t>(6, grey), {0, 0, 0}, {4, 3, 5}).take();
+  for (const std::size_t side : sides) scene.meshes[side].triangles.clear();
+  return scene;
+}
+
+TEST(FrameScene, LooksThroughTheOpenSideOfARoomFromOutside) {
+  const struct {
+    std::size_t side;
+    Vec3 forward;
+  } rooms[] = {{2, {1, 0, 0}}, {3, {-1, 0, 0}}, {4, {0, 0, 1}}, {5, {0, 0, -1}}};
+  for (const auto& [side, forward] : rooms) {
+    const Camera camera = frame_scene(room_without({side}));
+    expect_near(camera.forward, forward);
+    // The opening is as high as the film.
+    const Vec3 opening = Vec3(2, 1.5F, 2.5F) - forward * (side < 4 ? 2.0F : 2.5F);
+    expect_near(camera.position, opening - forward * (1.5F / std::tan(camera.vertical_fov / 2)));
+  }
+}
+
+TEST(FrameScene, AnOpenSideGoesBeforeAnOpenTopWhichAloneKeepsTheViewFromInside) {
+  expect_near(frame_scene(room_without({1, 4})).forward, {0, 0, 1});
+  const auto is_inside = [](const Vec3& p) { return p.x > 0 && p.x < 4 && p.y > 0 && p.y < 3 && p.z > 0 && p.z < 5; };
+  EXPECT_TRUE(is_inside(frame_scene(room_without({1})).position));
+  EXPECT_TRUE(is_inside(frame_scene(room_without({})).position));
+}
+
+TEST(FrameScene, LooksIntoTheCornellBoxFromItsOpenFront) {
+  const Scene box = *load_scene(std::filesystem::path(RADFARM_SOURCE_DIR) / "tests" / "scenes" / "cornell.gltf");
+  const Camera camera = frame_scene(box);
+  expect_near(camera.forward, {0, 0, 1});
+  EXPECT_LT((to_double(camera.position) + box.origin).z, -5);
 }
 
 TEST(FrameScene, AnEmptySceneHasAViewToo) { EXPECT_TRUE(is_finite(frame_scene(Scene{}).position)); }

@@ -23,6 +23,14 @@ Material material_of(const char* text) {
   return scene ? scene->materials[0] : Material{};
 }
 
+TEST(GltfMaterial, AnEmissionOfStrengthZeroIsSwitchedOff) {
+  EXPECT_TRUE(material_of(R"({"emissiveFactor": [1, 0.5, 0],
+      "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 0}}})").is_switched_off);
+  EXPECT_FALSE(material_of(R"({"emissiveFactor": [0, 0, 0],
+      "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 0}}})").is_switched_off);
+  EXPECT_FALSE(material_of(R"({"emissiveFactor": [1, 0.5, 0]})").is_switched_off);
+}
+
 TEST(GltfMaterial, IsExactlyLambertianOnlyWithoutMetalAndSpecular) {
   EXPECT_TRUE(material_of("{}").folds_gloss_into_diffuse);
   EXPECT_TRUE(material_of(R"({"pbrMetallicRoughness": {"metallicFactor": 0}})").folds_gloss_into_diffuse);

@@ -82,11 +82,30 @@ TEST(Obj, MaterialFaultsNameFileLineAndMaterial) {
   EXPECT_THAT(refusal(load_with_materials("newmtl a\nmap_Kd ../up.png\n")), HasSubstr("leaves the folder"));
 }
 
-TEST(Obj, AMissingLibraryIsAnErrorWithItsLine) {
-  const Result<Scene> scene = load_text("# hello\nmtllib none.mtl\n" + kTriangle + "f 1 2 3\n");
-  ASSERT_FALSE(scene);
-  EXPECT_EQ(scene.error().code, Code::kNotFound);
-  EXPECT_THAT(scene.error().message, HasSubstr("line 2: mtllib none.mtl: "));
+TEST(Obj, AMissingLibraryIsANoteAndItsMaterialsAreGrey) {
+  const Result<Scene> scene = load_text("# hello\nmtllib none.mtl\nusemtl oak\n" + kTriangle + "f 1 2 3\n");
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->materials[scene->meshes[0].material].reflectance, Spectrum(0.5F));
+  EXPECT_THAT(scene->notes, Contains(HasSubstr("Line 2: material library 'none.mtl' does not exist")));
+  EXPECT_THAT(scene->notes, Contains(HasSubstr("Material 'oak' is not defined")));
+}
+
+TEST(Obj, OfSeveralLibrariesTheOnesThatAreThereAreRead) {
+  const Folder folder;
+  folder.write("b.mtl", "newmtl red\nKd 1 0 0\n");
+  const Result<Scene> scene =
+      load_scene(folder.write("scene.obj", "mtllib a.mtl b.mtl\nusemtl red\n" + kTriangle + "f 1 2 3\n"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->materials[scene->meshes[0].material].reflectance, Spectrum(1, 0, 0));
+  EXPECT_THAT(scene->notes, Contains(HasSubstr("'a.mtl' does not exist")));
+}
+
+TEST(Obj, ALibraryOutsideTheFolderIsAnErrorWhetherItExistsOrNot) {
+  for (const char* name : {"../none.mtl", "/none.mtl"}) {
+    const Result<Scene> scene = load_text("# hello\nmtllib " + std::string(name) + "\n" + kTriangle + "f 1 2 3\n");
+    ASSERT_FALSE(scene) << name;
+    EXPECT_THAT(scene.error().message, HasSubstr("line 2: mtllib " + std::string(name) + ": "));
+  }
 }
 
 TEST(Obj, ZUpTurnsTheScene) {

@@ -14,6 +14,7 @@ Scene full_scene() {
   scene.materials[0].name = "oak";
   scene.materials[0].reflectance_texture = 0;
   scene.materials[1].emission = Spectrum(1, 2, 3);
+  scene.materials[0].is_switched_off = true;
   Mesh mesh;
   mesh.name = "leaf";
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -41,6 +42,7 @@ TEST(SceneFile, DecodingGivesBackTheSceneAndItsBytes) {
   EXPECT_EQ(encode_scene(*scene), bytes);
   EXPECT_EQ(scene->meshes[1].uv[1][2], Vec2(4, 4));
   EXPECT_EQ(scene->materials[1].emission, Spectrum(1, 2, 3));
+  EXPECT_TRUE(scene->materials[0].is_switched_off);
   EXPECT_EQ(scene->cameras[0].name, "front");
   EXPECT_EQ(scene->origin, Vec3d(1e6, 2, 3));
   EXPECT_EQ(scene->notes, full_scene().notes);

@@ -26,6 +26,14 @@ TEST(SceneFiles, AnObjFileNamesItsLibrariesAndTheirTextures) {
   EXPECT_THAT(*files, ElementsAre("a.obj", "lib/a.mtl", "lib/oak.png"));
 }
 
+TEST(SceneFiles, AMissingLibraryIsLeftOut) {
+  const test::Folder folder;
+  const auto files = scene_files(folder.write("a.obj", "mtllib none.mtl\n"));
+  ASSERT_TRUE(files) << files.error().message;
+  EXPECT_THAT(*files, ElementsAre("a.obj"));
+  EXPECT_FALSE(scene_files(folder.write("b.obj", "mtllib ../none.mtl\n")));
+}
+
 TEST(SceneFiles, FilesOutsideTheFolderAreRefused) {
   const test::Folder folder;
   const auto files = scene_files(folder.write("a.gltf", R"({"images": [{"uri": "%2e%2e/a.png"}]})"));

@@ -83,6 +83,37 @@ TEST(PerspectiveGrid, MovesPointsOutsideToItsBorder) {
   EXPECT_LT(grid.cell_at(grid.camera.position), grid.cell_count());
 }
 
+TEST(PerspectiveGrid, ACellIsAsWideAsNeighbouringVerticesAreApart) {
+  // Positions are floats of up to 50 m whose difference is taken: 1e-4 of a cell at most near the far end.
+  RandomSequence random(7);
+  for (const PerspectiveGrid& grid : {perspective(), orthographic()}) {
+    for (std::uint32_t k = 0; k <= grid.slices; ++k) {
+      const auto at = [&](std::uint32_t i, std::uint32_t j) { return grid.vertex_position(grid.vertex_id(i, j, k)); };
+      for (int n = 0; n < 50; ++n) {
+        const auto i = static_cast<std::uint32_t>(random.bits() % grid.columns);
+        const auto j = static_cast<std::uint32_t>(random.bits() % (grid.rows + 1));
+        const float apart = length(at(i + 1, j) - at(i, j));
+        // Anywhere in the slice, also beside the film.
+        const Vec3 across = (grid.camera.right * (random.uniform() - 0.5F) + grid.camera.up * random.uniform()) * 20.0F;
+        EXPECT_NEAR(grid.cell_width(at(i, j) + across), apart, 1e-4F * apart) << k;
+      }
+    }
+  }
+}
+
+TEST(PerspectiveGrid, CellsAreAsWideInFrontAndBehindAsAtTheEnds) {
+  const PerspectiveGrid grid = perspective();
+  const auto width_at = [&](float depth) { return grid.cell_width(grid.camera.position + grid.camera.forward * depth); };
+  // The camera's place is rounded: depths err by some ulps of 3 m, a millionth of the nearest depth.
+  EXPECT_NEAR(width_at(-1), width_at(grid.near), 1e-5F * width_at(grid.near));
+  EXPECT_NEAR(width_at(2 * grid.far), width_at(grid.far), 1e-5F * width_at(grid.far));
+  EXPECT_NEAR(width_at(10), 10 * width_at(1), 1e-5F * width_at(10));
+  const PerspectiveGrid even = orthographic();
+  const auto even_at = [&](float depth) { return even.cell_width(even.camera.position + even.camera.forward * depth); };
+  EXPECT_EQ(even_at(1), even_at(10));
+  EXPECT_FLOAT_EQ(even_at(1), 2 * 3 * 1.5F / 7);
+}
+
 TEST(Interpolate, WeighsWithAPartitionOfUnityThatReproducesThePoint) {
   const PerspectiveGrid grid = perspective();
   RandomSequence random(3);

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+
+#include "estimate/counters.h"
+#include "estimate/pixel_sampler.h"
+#include "scene/world.h"
+#include "senders/sender_grid.h"
+#include "senders/sender_lookup.h"
+
+namespace radfarm {
+
+/// What every gather of a view borrows.
+struct GatherContext {
+  const World& world;
+  const SenderTree& tree;
+  const SenderLookup& lookup;
+  const SenderGrid& senders;
+  const SenderSettings& settings;
+  bool has_interreflection = true;  // effect interreflection; off: `indirect` is neither computed nor returned
+};
+
+/// Irradiance at the visible point, direct and indirect apart, lux.
+struct Arrived {
+  Spectrum direct;
+  Spectrum indirect;
+};
+
+/// One visible point and all that its gather needs.
+struct GatherPoint {
+  const GatherContext& context;
+  const SurfacePoint& surface;
+  const PixelSampler& sampler;
+  Counters& counters;
+  Vec3 start{0, 0, 0};      // where rays leave it
+  float near_distance = 0;  // m: closer reflecting surfaces are near light, not the senders'
+};
+
+inline float cosine_to(const GatherPoint& point, const Vec3& direction) {
+  return std::max(0.0F, dot(point.surface.shading_normal, direction));
+}
+
+}  // namespace radfarm
