@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 #include "effects/measure.h"
+#include "effects/specialise.h"
 
 namespace radfarm {
 
@@ -15,7 +16,7 @@ struct EffectDecision {
   bool active = false;
   std::string test;         // in words, true when the effect is needed
   double value = 0;         // what the test measured
-  double bound = 0;         // largest error of skipping, cd/m^2
+  double bound = 0;         // largest error of skipping, cd/m^2 of reflected light; 0 of active effects
   std::string bound_kind;   // exact, rigorous, 95 % or heuristic
   std::string bound_scope;  // mean or max over pixels
   std::string note;         // what is done instead
@@ -23,11 +24,21 @@ struct EffectDecision {
 
 struct EffectsPlan {
   std::vector<EffectDecision> effects;
+
   bool is_active(std::string_view id) const;
+  /// What is left out of what the scene has, and the part of that which changes no image: bound 0, exact.
+  EffectSet off() const;
+  EffectSet exactly_off() const;
+  /// The bounds of all that is left out, added up: over the mean of pixels, and at the worst pixel.
+  double total_mean_bound() const;
+  double total_max_bound() const;
 };
 
-/// Decides every effect. `forced` is "+id,-id,..."; an unknown id, or switching on what radfarm cannot simulate yet, is
+/// Which integrator the plan is for: the path tracer carries what the gather leaves out.
+enum class Transport { kGather, kPathTrace };
+
+/// Decides every effect. `forced` is "+id,-id,..."; an unknown id, or switching on what radfarm cannot simulate, is
 /// INVALID_ARGUMENT. Pure.
-Result<EffectsPlan> plan_effects(const Measurements& measurements, std::string_view forced);
+Result<EffectsPlan> plan_effects(const Measurements& measurements, Transport transport, std::string_view forced);
 
 }  // namespace radfarm

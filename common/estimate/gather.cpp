@@ -1,13 +1,20 @@
 #include "estimate/gather.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "estimate/near_light.h"
+#include "estimate/scattering.h"
 #include "estimate/sender_light.h"
+#include "estimate/sky_light.h"
 #include "math/sampling.h"
 
 namespace radfarm {
 namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 constexpr std::uint32_t kCoverageDimension = 1;
 constexpr std::uint32_t kVertexDimension = 2;
@@ -15,6 +22,18 @@ constexpr std::uint32_t kChoiceDimension = 3;
 constexpr std::uint32_t kPunctualDimension = 4;
 constexpr std::uint32_t kNearDimension = 8;  // and the next ones
 constexpr std::uint32_t kFirstSenderDimension = 64;
+constexpr std::uint32_t kFirstSkyDimension = 1U << 16;
+constexpr std::uint32_t kFirstChainDimension = 1U << 17;  // of the eye chain's bounces ...
+constexpr std::uint32_t kDimensionsPerBounce = 8;         // ... each ...
+constexpr std::uint32_t kDimensionsPerChain = 1U << 12;   // ... and of each chain
+constexpr std::uint32_t kMaxPanes = 64;                   // that a camera ray goes through
+constexpr std::uint32_t kChains = 4;                      // of a sample that meets gloss
+
+// Of the samples of a gather, besides them, as many go to the sky.
+constexpr float kSkyShare = 0.5F;
+// An eye chain goes on with this many times the luminance that it carries: what carries little is rarely followed.
+constexpr float kFollowed = 64;
+constexpr float kMaxSurvival = 0.99F;
 
 // Of the samples of a gather, besides them, as many go to what is near.
 constexpr float kNearShare = 0.25F;
@@ -23,9 +42,9 @@ constexpr std::size_t kMaxTracedPunctual = 8;
 
 void add_lobes(const GatherPoint& point, const VertexSenders& senders, Arrived& arrived) {
   for (const Lobe& lobe : senders.lobes) {
-    const float cosine = cosine_to(point, lobe.direction);
-    arrived.direct += lobe.direct * cosine;
-    arrived.indirect += lobe.indirect * cosine;
+    const float received = received_from(point, lobe.direction);
+    arrived.direct += lobe.direct * received;
+    arrived.indirect += lobe.indirect * received;
   }
 }
 
@@ -46,8 +65,8 @@ void add_critical(const GatherPoint& point, const VertexSenders& senders, Arrive
   likely.clear();
   float total = 0;
   for (const CriticalSender& sender : senders.critical) total += likely.emplace_back(likely_from(point, sender));
-  if (!(total > 0)) return;
   const float step = total / point.context.settings.samples_per_gather;
+  if (!(step > 0)) return;  // nothing, or so little that a line's share is no float
   std::uint32_t dimension = kFirstSenderDimension;
   float position = point.sampler.one(kChoiceDimension) * step, until = 0;
   for (std::size_t i = 0; i < likely.size(); ++i) {
@@ -63,24 +82,24 @@ void add_critical(const GatherPoint& point, const VertexSenders& senders, Arrive
   }
 }
 
-void add_punctual_light(const GatherPoint& point, const PunctualLight& light, float weight, Arrived& arrived) {
+void add_punctual_light(const GatherPoint& point, const PunctualEmitter& light, float weight, Arrived& arrived) {
   const PunctualArrival arrival = arrive(light, point.surface.position, point.context.world.radius);
-  const float cosine = cosine_to(point, arrival.direction);
-  if (cosine == 0 || !(dot(point.surface.geometric_normal, arrival.direction) > 0)) return;
+  const float received = received_from(point, arrival.direction);
+  if (received == 0 || !(dot(point.surface.geometric_normal, arrival.direction) > 0)) return;
   if (is_black(arrival.irradiance)) return;
   ++point.counters.visibility_rays;
-  const float visible = point.context.world.caster.transmittance(point.start, arrival.target);
-  arrived.direct += arrival.irradiance * (cosine * visible * weight);
+  const Spectrum visible = point.context.world.caster.transmittance(point.start, arrival.target);
+  arrived.direct += arrival.irradiance * visible * (received * weight);
 }
 
 void add_punctual(const GatherPoint& point, Arrived& arrived) {
-  const std::vector<PunctualLight>& lights = point.context.world.emitters.punctual;
+  const std::vector<PunctualEmitter>& lights = point.context.world.emitters.punctual;
   if (lights.size() <= kMaxTracedPunctual) {
-    for (const PunctualLight& light : lights) add_punctual_light(point, light, 1, arrived);
+    for (const PunctualEmitter& light : lights) add_punctual_light(point, light, 1, arrived);
     return;
   }
   std::vector<double> weights;
-  for (const PunctualLight& light : lights) {
+  for (const PunctualEmitter& light : lights) {
     const PunctualArrival arrival = arrive(light, point.surface.position, point.context.world.radius);
     weights.push_back(static_cast<double>(luminance(arrival.irradiance) * cosine_to(point, arrival.direction)));
   }
@@ -94,35 +113,180 @@ void add_punctual(const GatherPoint& point, Arrived& arrived) {
   }
 }
 
-}  // namespace
-
-RadianceParts gather_radiance(const GatherContext& context, const Ray& ray, const PixelSampler& sampler,
-                              Counters& counters) {
-  RadianceParts parts;
-  ++counters.camera_rays;
-  const auto hit = context.world.caster.closest(ray, sampler.key(kCoverageDimension));
-  if (!hit) return parts;
-  SurfacePoint surface = context.world.surfaces.at(*hit);
-  face(surface, -ray.direction);
-  parts.emission = context.world.surfaces.emission(surface);
-  const Spectrum rho = context.world.surfaces.reflectance(surface);
-  if (is_black(rho)) return parts;
-
-  const GatherPoint point{context, surface, sampler, counters, leave(surface),
-                    context.senders.grid().cell_width(surface.position)};
+/// The light of the grid at a point that the camera sees.
+Arrived gather_on_grid(const GatherPoint& point) {
+  const GatherContext& context = point.context;
   Arrived arrived;
   add_punctual(point, arrived);
-  if (!context.tree.nodes.empty()) {
-    const Interpolation at = interpolate(context.senders.grid(), surface.position);
-    const VertexSenders& senders = context.senders.at(choose_vertex(at, sampler.one(kVertexDimension)));
-    add_lobes(point, senders, arrived);
-    add_critical(point, senders, arrived);
-    const auto rays = std::max(1U, static_cast<std::uint32_t>(kNearShare * context.settings.samples_per_gather));
-    if (context.has_interreflection) arrived.indirect += near_light(point, rays, kNearDimension);
+  const bool has_sky = !context.world.environment.is_empty();
+  if (context.tree.nodes.empty() && !has_sky) return arrived;
+  const Interpolation at = interpolate(context.senders.grid(), point.surface.position);
+  const VertexSenders& senders = context.senders.at(choose_vertex(at, point.sampler.one(kVertexDimension)));
+  const auto share_of_samples = [&](float share) {
+    return std::max(1U, static_cast<std::uint32_t>(share * static_cast<float>(context.settings.samples_per_gather)));
+  };
+  if (has_sky) arrived.direct += sky_light(point, senders.sky, share_of_samples(kSkyShare), kFirstSkyDimension);
+  if (context.tree.nodes.empty()) return arrived;
+  add_lobes(point, senders, arrived);
+  add_critical(point, senders, arrived);
+  if (context.has_interreflection) arrived.indirect += near_light(point, share_of_samples(kNearShare), kNearDimension);
+  return arrived;
+}
+
+/// What the radiosity solution says a diffuse surface reflects where a ray meets it, cd/m^2.
+Spectrum reflected_radiance(const GatherContext& context, const Hit& hit, const SurfacePoint& met) {
+  const std::uint32_t id = context.lookup.find(hit, met);
+  if (id == kNone) return {};
+  const SenderNode& node = context.tree.nodes[id];
+  return hit.weight * node.reflected_power * (kInversePi / node.area);
+}
+
+/// The diffuse part of a vertex beyond the first, where no grid is: a next event, and one ray that finds an emitter, the sky or
+/// what the radiosity solution has there. Radiance, by class.
+Arrived gather_off_grid(const GatherContext& context, const Vertex& vertex, const Spectrum& next_event,
+                        const PixelSampler& sampler, std::uint32_t dimension, Counters& counters) {
+  Arrived arrived{next_event, {}};
+  const Continuation on = go_on_diffuse(vertex, sampler.two(dimension + 4));
+  if (is_black(on.weight)) return arrived;
+  ++counters.path_rays;
+  Spectrum passed(1.0F);
+  const auto hit = context.world.caster.closest(on.ray, sampler.key(dimension + 4), kInfinity, &passed);
+  if (!hit) {
+    arrived.direct += on.weight * passed * weighed_sky(context.world, on.departure);
+    return arrived;
   }
-  parts.direct = rho * arrived.direct * kInversePi;
-  if (context.has_interreflection) parts.indirect = rho * arrived.indirect * kInversePi;
-  return parts;
+  SurfacePoint met = context.world.surfaces.at(*hit);
+  face(met, -on.ray.direction);
+  arrived.direct += on.weight * hit->weight * weighed_emission(context.world, on.departure, *hit, met);
+  if (context.has_interreflection) arrived.indirect += on.weight * reflected_radiance(context, *hit, met);
+  return arrived;
+}
+
+/// What the camera sees by specular surfaces: vertices whose specular part goes on, each with its diffuse part gathered.
+class EyeChain {
+ public:
+  EyeChain(const GatherContext& context, const PixelSampler& sampler, Counters& counters)
+      : context_(context), sampler_(sampler), counters_(counters) {}
+
+  /// Both what passes panes and what they reflect is followed: left to chance, one sample in ten would see the reflection.
+  RadianceParts trace(Ray ray) {
+    ++counters_.camera_rays;
+    const Surfaces& surfaces = context_.world.surfaces;
+    Spectrum throughput(1.0F);
+    for (std::uint32_t panes = 0; panes < kMaxPanes && !is_black(throughput); ++panes) {
+      const auto hit = context_.world.caster.closest_with_panes(ray, sampler_.key(kCoverageDimension));
+      const auto met = arrive_at(ray, {ray.origin, ray.direction, 0, true}, hit, throughput, PathStage::kSeen);
+      if (!met) return parts_;
+      SurfacePoint point = met->point;
+      scatter_seen(point, -ray.direction, met->throughput, panes);
+      if (!surfaces.is_pane(surfaces.scene().instances[hit->instance].mesh)) return parts_;
+      const float cosine = std::fabs(dot(point.geometric_normal, ray.direction));
+      throughput = met->throughput * pane_passage(surfaces.matter(point), cosine);
+      ray.origin = leave(point, ray.direction);
+    }
+    return parts_;
+  }
+
+ private:
+  struct Met {
+    SurfacePoint point;
+    Spectrum throughput;
+  };
+
+  Spectrum& emission(PathStage stage) { return part_of_emission(parts_, stage); }
+
+  /// Where a ray ended; adds what is emitted there, or by the sky.
+  std::optional<Met> arrive_at(const Ray& ray, const Departure& from, const std::optional<Hit>& hit, const Spectrum& throughput,
+                               PathStage stage) {
+    const World& world = context_.world;
+    if (!hit) {
+      emission(stage) += throughput * weighed_sky(world, from);
+      return std::nullopt;
+    }
+    Met met{world.surfaces.at(*hit), throughput};
+    face(met.point, -ray.direction);
+    met.throughput *= hit->weight * world.surfaces.absorption(met.point, hit->distance);
+    emission(stage) += met.throughput * weighed_emission(world, from, *hit, met.point);
+    return met;
+  }
+
+  /// What the camera sees first, or by panes.
+  void scatter_seen(SurfacePoint& point, const Vec3& to_viewer, const Spectrum& throughput, std::uint32_t panes) {
+    const Bsdf bsdf = bsdf_at(context_.world.surfaces, point, to_viewer);
+    gather_here(point, bsdf, throughput);
+    if (!bsdf.has_specular()) return;
+    // About as many chains as the diffuse part has rays: else gloss would be the image's noise.
+    const std::uint32_t chains = bsdf.is_delta() ? 1 : kChains;
+    const Vertex vertex{context_.world, point, bsdf, 1, 1};
+    for (std::uint32_t k = 0; k < chains; ++k) {
+      follow(vertex, throughput / static_cast<float>(chains),
+             kFirstChainDimension + (panes * kChains + k) * kDimensionsPerChain);
+    }
+  }
+
+  /// The diffuse part of what the camera sees first.
+  void gather_here(const SurfacePoint& point, const Bsdf& bsdf, const Spectrum& throughput) {
+    if (!bsdf.has_diffuse()) return;
+    const Arrived irradiance = gather_on_grid({context_, point, bsdf, sampler_, counters_, leave(point),
+                                               context_.senders.grid().cell_width(point.position)});
+    const Spectrum reflected = throughput * bsdf.diffuse_reflectance() * kInversePi;
+    parts_.direct += reflected * irradiance.direct;
+    if (context_.has_interreflection) parts_.indirect += reflected * irradiance.indirect;
+  }
+
+  /// One chain from a vertex on: its highlights, then the vertices behind.
+  void follow(const Vertex& first, Spectrum throughput, std::uint32_t dimension) {
+    const NextEventLight highlight =
+        next_event_light(first, sampler_.one(dimension), sampler_.two(dimension + 1), counters_);
+    parts_.specular += throughput * highlight.specular;
+    Continuation next = go_on_specular(first, sampler_.one(dimension + 2), sampler_.two(dimension + 3));
+    while (survives(next, throughput, dimension)) {
+      dimension += kDimensionsPerBounce;
+      ++counters_.path_rays;
+      Spectrum passed(1.0F);
+      const auto hit = context_.world.caster.closest(next.ray, sampler_.key(dimension), kInfinity, &passed);
+      const auto met = arrive_at(next.ray, next.departure, hit, throughput * passed, PathStage::kEyeChain);
+      if (!met) return;
+      throughput = met->throughput;
+      SurfacePoint point = met->point;
+      const Bsdf bsdf = bsdf_at(context_.world.surfaces, point, -next.ray.direction);
+      const Vertex vertex{context_.world, point, bsdf, 1, 1};
+      scatter_off_grid(vertex, throughput, dimension);
+      if (!bsdf.has_specular()) return;
+      next = go_on_specular(vertex, sampler_.one(dimension + 2), sampler_.two(dimension + 3));
+    }
+  }
+
+  /// Both parts of a vertex beyond the first.
+  void scatter_off_grid(const Vertex& vertex, const Spectrum& throughput, std::uint32_t dimension) {
+    const NextEventLight event =
+        next_event_light(vertex, sampler_.one(dimension), sampler_.two(dimension + 1), counters_);
+    parts_.specular += throughput * event.specular;
+    if (!vertex.bsdf.has_diffuse()) return;
+    const Arrived radiance = gather_off_grid(context_, vertex, event.diffuse, sampler_, dimension, counters_);
+    parts_.direct += throughput * radiance.direct;
+    parts_.indirect += throughput * radiance.indirect;
+  }
+
+  /// Ends chains that carry little, by chance.
+  bool survives(const Continuation& next, Spectrum& throughput, std::uint32_t dimension) {
+    const float survive = std::min(kMaxSurvival, kFollowed * luminance(throughput * next.weight));
+    if (!(survive > 0) || sampler_.one(dimension + 5) >= survive) return false;
+    throughput *= next.weight / survive;
+    return true;
+  }
+
+  const GatherContext& context_;
+  const PixelSampler& sampler_;
+  Counters& counters_;
+  RadianceParts parts_;
+};
+
+}  // namespace
+
+RadianceParts gather_radiance(const GatherContext& context, const Ray& camera_ray, const PixelSampler& sampler,
+                              Counters& counters) {
+  return EyeChain(context, sampler, counters).trace(camera_ray);
 }
 
 }  // namespace radfarm

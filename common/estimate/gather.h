@@ -11,8 +11,9 @@ namespace radfarm {
 /// conforming interpolation and the blend of mixed classifications, continuous from cell to cell. Interpolated senders
 /// add their lobes; of the critical ones `samples_per_gather` are drawn by systematic sampling in proportion to what
 /// they are likely to give the point: the form factor of a patch is exact, its visibility traced. What is nearer than a
-/// grid cell is wide comes by rays (near_light.h). Punctual lights are always traced. Stops at the first surface:
-/// everything is Lambertian.
+/// grid cell is wide comes by rays (near_light.h), the sky's light by sky_light.h. Punctual lights are always traced.
+/// What gloss, mirrors and glass show is followed by rays (the eye chain); where they end on diffuse surfaces, which may be
+/// outside the grid, the light is a next event's and the radiosity solution's where one more ray ends.
 RadianceParts gather_radiance(const GatherContext& context, const Ray& ray, const PixelSampler& sampler,
                               Counters& counters);
 

@@ -30,11 +30,19 @@ struct Arrived {
 struct GatherPoint {
   const GatherContext& context;
   const SurfacePoint& surface;
+  const Bsdf& bsdf;
   const PixelSampler& sampler;
   Counters& counters;
   Vec3 start{0, 0, 0};      // where rays leave it
   float near_distance = 0;  // m: closer reflecting surfaces are near light, not the senders'
 };
+
+/// How much of the irradiance from a unit direction at normal incidence the diffuse part scatters: the cosine, and what its
+/// layers let through.
+inline float received_from(const GatherPoint& point, const Vec3& direction) {
+  const float cosine = dot(point.surface.shading_normal, direction);
+  return cosine > 0 ? cosine * point.bsdf.diffuse_shape(direction) : 0;
+}
 
 inline float cosine_to(const GatherPoint& point, const Vec3& direction) {
   return std::max(0.0F, dot(point.surface.shading_normal, direction));

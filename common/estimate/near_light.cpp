@@ -19,7 +19,8 @@ Spectrum near_light(const GatherPoint& point, std::uint32_t rays, std::uint32_t 
     const std::uint32_t id = context.lookup.find(*hit, met);
     if (id == kNone || context.tree.patches[context.tree.nodes[id].patch].emits != 0) continue;
     const SenderNode& node = context.tree.nodes[id];
-    sum += node.reflected_power / (node.area * static_cast<float>(rays));
+    const float share = point.bsdf.diffuse_shape(way) / (node.area * static_cast<float>(rays));
+    sum += hit->weight * node.reflected_power * share;
   }
   return sum;
 }

@@ -9,10 +9,14 @@ namespace radfarm {
 
 /// Unbiased path tracing: the truth that every other integrator is held to.          docs/pipeline.md (path.1), [Kaj86]
 ///
-/// Next-event estimation towards all emitters, combined with the paths that hit one by the balance heuristic (path.2);
-/// triangles are sampled by solid angle where it is large enough to pay, else by area. From the third bounce on a
-/// path survives with probability lum(w rho) / lum(w), at most 0.99, so every path ends. No bound on depth.
+/// Next-event estimation towards all emitters and the sky, combined with the paths that hit one by the balance heuristic
+/// (path.2), the diffuse and the specular part of each surface apart, so that light keeps its class; triangles are sampled by
+/// solid angle where it is large enough to pay, else by area. From the third bounce on a path survives in proportion to what
+/// its luminance keeps, at most 0.99, so every path ends. No bound on depth. It cannot carry the light of points and directions
+/// by mirrors and clear glass: no ray finds either.
 /// Requires: `ray` unit. Cost: about 2 rays a bounce.
-RadianceParts trace_path(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters);
+/// Without `has_interreflection`, `indirect` and light that comes to the receiver by specular surfaces are left out.
+RadianceParts trace_path(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters,
+                         bool has_interreflection = true);
 
 }  // namespace radfarm

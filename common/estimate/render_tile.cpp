@@ -4,6 +4,7 @@ namespace radfarm {
 namespace {
 
 constexpr std::uint32_t kFilmDimension = 0;
+constexpr std::uint32_t kLensDimension = 7;
 
 }  // namespace
 
@@ -13,8 +14,10 @@ PixelSums sample_pixel(const Film& film, Stream stream, int x, int y, std::uint3
   for (std::uint32_t i = first; i < first + count; ++i) {
     const PixelSampler sampler(film.seed, stream, x, y, i);
     const Vec2 jitter = sampler.two(kFilmDimension);
-    const Ray ray = camera_ray(film.camera, film.width, film.height, static_cast<float>(x) + jitter.x,
-                               static_cast<float>(y) + jitter.y);
+    const float film_x = static_cast<float>(x) + jitter.x, film_y = static_cast<float>(y) + jitter.y;
+    const Ray ray = film.camera.lens_diameter > 0
+                        ? camera_ray(film.camera, film.width, film.height, film_x, film_y, sampler.two(kLensDimension))
+                        : camera_ray(film.camera, film.width, film.height, film_x, film_y);
     sums.add(radiance(ray, sampler, counters));
   }
   counters.dropped_samples += sums.dropped;

@@ -29,9 +29,9 @@ Spectrum emission_ratio(const GatherPoint& point, const SenderNode& node, const 
   return {mean.r > 0 ? here.r / mean.r : 0, mean.g > 0 ? here.g / mean.g : 0, mean.b > 0 ? here.b / mean.b : 0};
 }
 
-/// What lines to a sender bring: its visible share, and the product of that with the emission's texture.
+/// What lines to a sender bring, times what the receiver's layers let through: its visible share by colour, and the product of that with the emission's texture.
 struct Visible {
-  float share = 0;       // mean of V
+  Spectrum share;        // mean of V
   Spectrum textured;     // mean of V x emission ratio
 };
 
@@ -64,12 +64,12 @@ Line draw_by_power(const GatherPoint& point, std::uint32_t sender, float choice,
   return line;
 }
 
-float visibility_of(const GatherPoint& point, const CriticalSender& sender, const SenderSample& y) {
+Spectrum visibility_of(const GatherPoint& point, const CriticalSender& sender, const SenderSample& y) {
   if (sender.resample_visibility == 0) return sender.visibility;
   const Vec3 offset = y.position - point.surface.position;
-  if (!(dot(point.surface.geometric_normal, offset) > 0)) return 0;
+  if (!(dot(point.surface.geometric_normal, offset) > 0)) return {};
   const bool is_near = dot(offset, offset) < point.near_distance * point.near_distance;
-  if (is_near && point.context.tree.patches[y.patch].emits == 0) return 0;
+  if (is_near && point.context.tree.patches[y.patch].emits == 0) return {};
   ++point.counters.visibility_rays;
   return point.context.world.caster.transmittance(point.start, y.leave());
 }
@@ -118,18 +118,19 @@ Visible trace(const GatherPoint& point, const CriticalSender& sender, std::uint3
     near.emplace(to_double(v[0]), to_double(v[1]), to_double(v[2]), to_double(point.surface.position));
     if (!near->in_range()) near.reset();
   }
-  float lines = 0, passed = 0;
-  Spectrum textured;
+  float lines = 0;
+  Spectrum passed, textured;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Line line = draw_line(point, node, node_id, near ? &*near : nullptr, dimension + 2 * i);
     if (!(line.weight > 0)) continue;
-    const float visible = visibility_of(point, sender, line.target);
+    const Vec3 way = normalize(line.target.position - point.surface.position);
+    const Spectrum visible = visibility_of(point, sender, line.target) * point.bsdf.diffuse_shape(way);
     ++lines;
     passed += visible;
     textured += emission_ratio(point, node, line.target) * visible;
   }
   // Every candidate fell below a horizon: they say nothing of the rest of the sender.
-  if (!(lines > 0)) return {sender.visibility, Spectrum(sender.visibility)};
+  if (!(lines > 0)) return {sender.visibility, sender.visibility};
   return {passed / lines, textured / lines};
 }
 
@@ -146,7 +147,8 @@ Arrived from_patch(const GatherPoint& point, const CriticalSender& sender, std::
   if (!(form_factor > 0)) return {};
   const float factor = form_factor / node.area;
   if (sender.resample_visibility == 0 && patch.is_textured_emitter == 0) {
-    const float scale = factor * sender.visibility;
+    const Vec3 way = normalize(node.bounds.center() - point.surface.position);
+    const Spectrum scale = sender.visibility * (factor * point.bsdf.diffuse_shape(way));
     return {node.emitted_power * scale, node.reflected_power * scale};
   }
   const Visible visible = trace(point, sender, node_id, form_factor, count, dimension);

@@ -19,10 +19,12 @@ struct Settings {
   std::uint32_t camera_samples = 16;     // a pixel
   std::uint32_t audit_pixels = 0;        // 0: no audit
   std::uint32_t audit_samples = 0;       // paths of each of the two estimates of an audited pixel
-  std::uint32_t has_interreflection = 1; // effect interreflection
+  std::uint32_t effects_off = 0;         // EffectSet: the image is rendered without these ...
+  std::uint32_t exactly_off = 0;         // ... of which these change no image: the audit leaves them out too
+  std::uint32_t reserved = 0;
   RadiositySettings radiosity;
   SenderSettings senders;
 };
-static_assert(sizeof(Settings) == 40 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
+static_assert(sizeof(Settings) == 48 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
 
 }  // namespace radfarm

@@ -13,11 +13,11 @@ struct Layer {
 };
 
 constexpr Layer kLayers[] = {
-    {"", [](const PixelSums& p) { return p.emission + p.direct + p.indirect; }},
+    {"", [](const PixelSums& p) { return p.emission + p.reflected(); }},
     {"emission.", [](const PixelSums& p) { return p.emission; }},
     {"direct.", [](const PixelSums& p) { return p.direct; }},
     {"indirect.", [](const PixelSums& p) { return p.indirect; }},
-    {"specular.", [](const PixelSums&) { return SpectrumD(); }},
+    {"specular.", [](const PixelSums& p) { return p.specular; }},
 };
 
 }  // namespace

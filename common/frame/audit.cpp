@@ -20,12 +20,12 @@ struct Term {
   double shift = 0;     // (r1 + r2) / 2 - x
 };
 
-SpectrumD mean_direct(const PixelSums& p) { return p.direct / static_cast<double>(p.samples); }
-SpectrumD mean_indirect(const PixelSums& p) { return p.indirect / static_cast<double>(p.samples); }
+SpectrumD mean(const SpectrumD& sum, const PixelSums& p) { return sum / static_cast<double>(p.samples); }
+SpectrumD mean_reflected(const PixelSums& p) { return mean(p.reflected(), p); }
 
 double mean_of_image(const Raster& raster) {
   double sum = 0;
-  for (const PixelSums& p : raster.pixels) sum += luminance(mean_direct(p) + mean_indirect(p));
+  for (const PixelSums& p : raster.pixels) sum += luminance(mean_reflected(p));
   return sum / static_cast<double>(raster.pixels.size());
 }
 
@@ -58,11 +58,15 @@ MeasuredError measured(double value, std::vector<double> resampled) {
 }
 
 void add_parts(const PixelSums& x, const AuditResult::Pixel& r, double weight, Accuracy& accuracy) {
-  const SpectrumD reflected = mean_direct(x) + mean_indirect(x);
-  const SpectrumD rest1 = reflected - mean_direct(r.first) - mean_indirect(r.first);
-  const SpectrumD rest2 = reflected - mean_direct(r.second) - mean_indirect(r.second);
-  accuracy.direct_mse += weight * luminance(mean_direct(x) - mean_direct(r.first)) * luminance(rest2);
-  accuracy.indirect_mse += weight * luminance(mean_indirect(x) - mean_indirect(r.first)) * luminance(rest2);
+  const SpectrumD reflected = mean_reflected(x);
+  const SpectrumD rest1 = reflected - mean_reflected(r.first);
+  const SpectrumD rest2 = reflected - mean_reflected(r.second);
+  const auto part_mse = [&](const SpectrumD& of_x, const SpectrumD& of_first) {
+    return weight * luminance(mean(of_x, x) - mean(of_first, r.first)) * luminance(rest2);
+  };
+  accuracy.direct_mse += part_mse(x.direct, r.first.direct);
+  accuracy.indirect_mse += part_mse(x.indirect, r.first.indirect);
+  accuracy.specular_mse += part_mse(x.specular, r.first.specular);
   accuracy.channel_mse[0] += weight * rest1.r * rest2.r;
   accuracy.channel_mse[1] += weight * rest1.g * rest2.g;
   accuracy.channel_mse[2] += weight * rest1.b * rest2.b;
@@ -81,9 +85,9 @@ Result<std::vector<Term>> compare_pixels(const Settings& settings, const Raster&
       const double weight = chosen[terms.size()].weight;
       const PixelSums& x = raster.pixels[static_cast<std::size_t>(r.y) * static_cast<std::size_t>(settings.width) +
                                          static_cast<std::size_t>(r.x)];
-      const double value = luminance(mean_direct(x) + mean_indirect(x));
-      const double r1 = luminance(mean_direct(r.first) + mean_indirect(r.first));
-      const double r2 = luminance(mean_direct(r.second) + mean_indirect(r.second));
+      const double value = luminance(mean_reflected(x));
+      const double r1 = luminance(mean_reflected(r.first));
+      const double r2 = luminance(mean_reflected(r.second));
       terms.push_back({weight, (value - r1) * (value - r2), (r1 + r2) / 2 - value});
       add_parts(x, r, weight, accuracy);
     }

@@ -28,6 +28,7 @@ struct Accuracy {
   std::array<double, 3> channel_mse{};  // R, G, B; may be negative within its noise
   double direct_mse = 0;                // parts that add up to the MSE
   double indirect_mse = 0;
+  double specular_mse = 0;
 };
 
 /// Two independent unbiased estimates r1, r2 of each audited pixel estimate the image's MSE without bias, whatever the bias

@@ -19,11 +19,11 @@ json value(const std::optional<MeasuredError>& error) {
   return *error->value;
 }
 
-json accuracy_json(const std::optional<Accuracy>& accuracy) {
-  json out = {{"model", "diffuse-only"}, {"target", nullptr}, {"target_met", nullptr}, {"audited_pixels", 0},
+json accuracy_json(const std::optional<Accuracy>& accuracy, const json& facts) {
+  json out = {{"model", "all-materials"}, {"target", nullptr}, {"target_met", nullptr}, {"audited_pixels", 0},
               {"mean", nullptr},         {"rmse", nullptr},   {"rmse_ci95", nullptr},  {"relative_rmse", nullptr},
               {"relative_rmse_ci95", nullptr}};
-  out["unaudited"] = json::array({"transport beyond Lambertian reflection: every material is folded into diffuse"});
+  out["unaudited"] = facts.value("unaudited", json::array());
   if (!accuracy) return out;
   out["audited_pixels"] = accuracy->audited_pixels;
   out["mean"] = accuracy->mean;
@@ -31,7 +31,8 @@ json accuracy_json(const std::optional<Accuracy>& accuracy) {
   out["rmse_ci95"] = interval(accuracy->rmse);
   out["relative_rmse"] = value(accuracy->relative_rmse);
   out["relative_rmse_ci95"] = interval(accuracy->relative_rmse);
-  out["mse_parts"] = {{"direct", accuracy->direct_mse}, {"indirect", accuracy->indirect_mse}};
+  out["mse_parts"] = {{"direct", accuracy->direct_mse}, {"indirect", accuracy->indirect_mse},
+                      {"specular", accuracy->specular_mse}};
   out["channel_mse"] = accuracy->channel_mse;
   return out;
 }
@@ -93,7 +94,8 @@ json make_report(json facts, const Settings& settings, const Raster& raster, con
   report["stages"].push_back({{"name", "tasks"}, {"wall_s", farm.tasks_wall_seconds}, {"cpu_s", cpu}});
   report["peak_memory_bytes"] = memory;
   add_counts(report["counts"], settings, counters);
-  report["accuracy"] = accuracy_json(accuracy);
+  report["accuracy"] = accuracy_json(accuracy, report);
+  report.erase("unaudited");
   report["dropped_samples"] = {{"count", counters.dropped_samples}, {"share", dropped_share(raster)}};
   report["image"] = {{"path", ""}, {"digest", image_digest}};
   return report;

@@ -21,6 +21,7 @@ using PlacedCamera = RenderRequest::PlacedCamera;
 constexpr int kMaxSide = 16384;
 constexpr int kMaxTile = 1024;
 constexpr int kMaxSamples = 1 << 20;
+constexpr std::size_t kMaxIes = 1000;
 constexpr std::size_t kMaxText = 1024;  // bytes of a camera's name or an effects list
 
 template <typename T>
@@ -84,6 +85,9 @@ Status check_camera(const PlacedCamera& camera) {
   if (!(camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180)) {
     return invalid("--fov is " + std::to_string(camera.vertical_fov_degrees) + " degrees, must be between 0 and 180");
   }
+  if (camera.orthographic_height && !(*camera.orthographic_height > 0 && std::isfinite(*camera.orthographic_height))) {
+    return invalid("--orthographic is " + std::to_string(*camera.orthographic_height) + " m, must be positive and finite");
+  }
   return {};
 }
 
@@ -119,7 +123,8 @@ Json to_json(const PlacedCamera& camera) {
   return {{"eye", to_json(camera.eye)},
           {"look_at", to_json(camera.look_at)},
           {"up_vector", to_json(camera.up_vector)},
-          {"vertical_fov_degrees", camera.vertical_fov_degrees}};
+          {"vertical_fov_degrees", camera.vertical_fov_degrees},
+          {"orthographic_height", camera.orthographic_height ? Json(*camera.orthographic_height) : Json()}};
 }
 
 Status wrong_type(std::string_view key, std::string_view expected) {
@@ -206,6 +211,14 @@ Status read(const Json& json, std::string_view key, std::optional<T>& out) {
   return {};
 }
 
+Status read(const Json& json, std::string_view key, std::map<std::string, std::string>& out) {
+  if (!json.is_object()) return wrong_type(key, "an object of light names and files");
+  for (const auto& [name, value] : json.items()) {
+    RADFARM_TRY_STATUS(read(value, std::string(key) + "." + name, out[name]));
+  }
+  return {};
+}
+
 Status unknown_key(std::string_view key) { return invalid("unknown key '" + std::string(key.substr(0, 80)) + "'"); }
 
 Status read(const Json& json, std::string_view key, std::variant<NamedCamera, PlacedCamera>& out) {
@@ -219,6 +232,8 @@ Status read(const Json& json, std::string_view key, std::variant<NamedCamera, Pl
     else if (name == "look_at") RADFARM_TRY_STATUS(read(value, path, placed.look_at));
     else if (name == "up_vector") RADFARM_TRY_STATUS(read(value, path, placed.up_vector));
     else if (name == "vertical_fov_degrees") RADFARM_TRY_STATUS(read(value, path, placed.vertical_fov_degrees));
+    else if (name == "orthographic_height" && value.is_null()) continue;
+    else if (name == "orthographic_height") RADFARM_TRY_STATUS(read(value, path, placed.orthographic_height));
     else return unknown_key(path);
   }
   const bool is_named = json.contains("name") || json.empty();
@@ -244,6 +259,10 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
   if (key == "threshold") return read(value, key, request.threshold);
   if (key == "audit") return read(value, key, request.audit);
   if (key == "effects") return read(value, key, request.effects);
+  if (key == "env") return read(value, key, request.env);
+  if (key == "ies") return read(value, key, request.ies);
+  if (key == "lens_diameter") return read(value, key, request.lens_diameter);
+  if (key == "focus_distance") return read(value, key, request.focus_distance);
   return unknown_key(key);
 }
 
@@ -258,6 +277,14 @@ Status validate(const RenderRequest& request) {
   if (request.threshold && !(*request.threshold > 0 && std::isfinite(*request.threshold))) {
     return invalid("--threshold is " + std::to_string(*request.threshold) + ", must be positive and finite, in cd/m^2");
   }
+  if (request.lens_diameter && !(*request.lens_diameter >= 0 && *request.lens_diameter <= 1e6F)) {
+    return invalid("--lens-diameter is " + std::to_string(*request.lens_diameter) + " m, must not be negative");
+  }
+  if (request.focus_distance && !(*request.focus_distance > 0 && *request.focus_distance <= 1e18F)) {
+    return invalid("--focus-distance is " + std::to_string(*request.focus_distance) + " m, must be positive and finite");
+  }
+  if (request.env.size() > kMaxText) return invalid("--env: is longer than " + std::to_string(kMaxText) + " bytes");
+  if (request.ies.size() > kMaxIes) return invalid("--ies: more than " + std::to_string(kMaxIes) + " files");
   return check_effects(request.effects);
 }
 
@@ -268,7 +295,11 @@ nlohmann::json to_json(const RenderRequest& request) {
                {"seed", request.seed},
                {"tile", request.tile},
                {"audit", request.audit},
-               {"effects", request.effects}};
+               {"effects", request.effects},
+               {"env", request.env}};
+  if (!request.ies.empty()) json["ies"] = request.ies;
+  if (request.lens_diameter) json["lens_diameter"] = *request.lens_diameter;
+  if (request.focus_distance) json["focus_distance"] = *request.focus_distance;
   json["camera"] = std::visit([](const auto& camera) { return to_json(camera); }, request.camera);
   if (request.width) json["width"] = *request.width;
   if (request.height) json["height"] = *request.height;

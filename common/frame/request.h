@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -27,6 +28,7 @@ struct RenderRequest {
     Vec3d eye, look_at;  // metres, in the scene file's coordinates (after `up`)
     Vec3d up_vector{0, 1, 0};
     double vertical_fov_degrees = 45;
+    std::optional<double> orthographic_height;  // metres that the image is high; then there is no field of view
     friend bool operator==(const PlacedCamera&, const PlacedCamera&) = default;
   };
 
@@ -40,6 +42,10 @@ struct RenderRequest {
   std::optional<int> samples;             // camera samples a pixel; by default from quality
   std::optional<float> threshold;         // largest accepted change of radiance, cd/m^2; by default from quality
   bool audit = true;
+  std::string env;                        // "sky:..." (docs/sky.md), or a map beside the scene file; empty: the dark
+  std::map<std::string, std::string> ies;  // light or node name -> IES file beside the scene file
+  std::optional<float> lens_diameter;     // metres; default: the camera's, which is 0
+  std::optional<float> focus_distance;    // metres; default: the camera's, or the distance to --look-at
   std::string effects;                    // "+id,-id": forces effects on or off
 
   friend bool operator==(const RenderRequest&, const RenderRequest&) = default;

@@ -5,13 +5,13 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 /// Camera without its name: a fixed layout.
 struct StoredCamera {
   Camera::Kind kind;
   Vec3 position, right, up, forward;
-  float vertical_fov, half_height, aspect;
+  float vertical_fov, half_height, aspect, lens_diameter, focus_distance;
 };
 
 bool is_sane(const Settings& s) {
@@ -25,7 +25,7 @@ std::vector<std::byte> encode(const View& view) {
   FlatFileWriter file("view", kVersion);
   const Camera& c = view.camera;
   file.add_value("camera", StoredCamera{c.kind, c.position, c.right, c.up, c.forward, c.vertical_fov, c.half_height,
-                                        c.aspect});
+                                        c.aspect, c.lens_diameter, c.focus_distance});
   file.add_value("settings", view.settings);
   file.add_text("facts", view.facts);
   file.add("grid", view.grid);
@@ -37,7 +37,7 @@ Result<View> decode_view(std::span<const std::byte> bytes) {
   RADFARM_TRY(const StoredCamera stored, file.get_value<StoredCamera>("camera"));
   View view;
   view.camera = {"",         stored.kind,         stored.position,    stored.right, stored.up, stored.forward,
-                 stored.vertical_fov, stored.half_height, stored.aspect};
+                 stored.vertical_fov, stored.half_height, stored.aspect, stored.lens_diameter, stored.focus_distance};
   RADFARM_TRY(view.settings, file.get_value<Settings>("settings"));
   RADFARM_TRY(view.facts, file.get_text("facts"));
   RADFARM_TRY(view.grid, file.copy<std::byte>("grid"));

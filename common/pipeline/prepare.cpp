@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -8,8 +9,10 @@
 #include "effects/measure.h"
 #include "effects/plan.h"
 #include "frame/view.h"
+#include "pipeline/expected_cost.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/resolve.h"
+#include "scene/light_scene.h"
 #include "scene/load_scene.h"
 #include "scene/scene_file.h"
 #include "scene/summary.h"
@@ -44,7 +47,7 @@ LoadOptions load_options(const RenderRequest& request) {
 
 /// A scene without light, or whose light can never be lost, has no image.
 Status check_light(const Scene& scene, const Measurements& m) {
-  const bool is_declared = m.emissive_triangles > 0 || m.punctual_lights > 0;
+  const bool is_declared = m.emissive_triangles > 0 || m.punctual_lights > 0 || m.has_environment;
   if (!is_declared && scene.instances.empty()) {
     return fail(Code::kInvalidArgument, "the scene has no triangles: points and lines are not rendered");
   }
@@ -52,19 +55,30 @@ Status check_light(const Scene& scene, const Measurements& m) {
     return fail(Code::kInvalidArgument,
                 "the scene has no emitter: give it an emissive material, a light (KHR_lights_punctual), or --env");
   }
-  if (m.emitted_flux > 0 && m.probes > 0 && m.escaped == 0 && m.min_reflectance >= 1) {
+  if (m.emitted_flux > 0 && m.pilot.walks > 0 && m.pilot.escaped == 0 && m.min_reflectance >= 1) {
     return fail(Code::kInvalidArgument,
-                "no light can be lost: every surface reflects all of it and none of " + std::to_string(m.probes) +
-                    " probes left the scene; lower a reflectance below 1 or open the scene");
+                "no light can be lost: every surface reflects all of it and none of " + std::to_string(m.pilot.walks) +
+                    " walks left the scene; lower a reflectance below 1 or open the scene");
   }
   return {};
+}
+
+json bound_json(double bound) { return std::isfinite(bound) ? json(bound) : json("unbounded"); }
+
+/// What neither the image nor the path tracer, which audits it, can carry.
+json unaudited(const Measurements& m) {
+  json list = json::array();
+  if (m.punctual_lights > 0 && m.mirrors + m.volumes > 0) {
+    list.push_back("light of points and directions by mirrors and clear glass: no path meets it");
+  }
+  return list;
 }
 
 json effects_json(const EffectsPlan& plan) {
   json rows = json::array();
   for (const EffectDecision& e : plan.effects) {
     rows.push_back({{"id", e.id}, {"active", e.active}, {"test", e.test}, {"value", e.value},
-                    {"bound", std::isfinite(e.bound) ? json(e.bound) : json("unbounded")},
+                    {"bound", bound_json(e.bound)},
                     {"bound_kind", e.bound_kind}, {"bound_scope", e.bound_scope}, {"note", e.note}});
   }
   return rows;
@@ -77,6 +91,7 @@ struct Planned {
   EffectsPlan plan;
   ChosenCamera camera;
   Settings settings;
+  json unaudited;
   std::vector<std::byte> scene_bytes;
   json facts;
 };
@@ -91,6 +106,10 @@ json warnings(const Planned& planned) {
   json lines = json::array();
   for (const std::string& note : planned.world->scene.notes) lines.push_back(note);
   if (planned.camera.is_framed) lines.push_back("the file has no camera: framed the bulk of the geometry");
+  if (planned.measurements.has_environment && !planned.plan.is_active("environment")) {
+    lines.push_back("the sky is left out: none of " + std::to_string(planned.measurements.pilot.walks) +
+                    " walks left the scene; --effects +environment keeps it");
+  }
   if (!(planned.measurements.emitted_flux > 0)) lines.push_back("all emitters have zero power: the image is black");
   return lines;
 }
@@ -99,19 +118,29 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   RADFARM_TRY_STATUS(validate(request));
   Planned planned;
   RADFARM_TRY(Scene scene, load_scene(scene_file, load_options(request)));
+  RADFARM_TRY_STATUS(light_scene({request.env, request.ies}, scene_file.parent_path(), scene));
   planned.scene_bytes = encode_scene(scene);
   clock.end_stage("load");
   planned.world = std::make_unique<World>(std::move(scene));
   clock.end_stage("acceleration");
-  planned.measurements = measure(*planned.world, request.seed);
-  RADFARM_TRY_STATUS(check_light(planned.world->scene, planned.measurements));
-  RADFARM_TRY(planned.plan, plan_effects(planned.measurements, request.effects));
   RADFARM_TRY(planned.camera, choose_camera(planned.world->scene, request));
   planned.settings = resolve_settings(request, planned.camera.camera);
+  const ViewSize size{planned.camera.camera, planned.settings.width, planned.settings.height};
+  planned.measurements = measure(*planned.world, size, request.seed);
+  RADFARM_TRY_STATUS(check_light(planned.world->scene, planned.measurements));
+  const bool is_path = planned.settings.integrator == Settings::Integrator::kPathTrace;
+  RADFARM_TRY(planned.plan, plan_effects(planned.measurements, is_path ? Transport::kPathTrace : Transport::kGather,
+                                         request.effects));
+  planned.settings.effects_off = planned.plan.off();
+  planned.settings.exactly_off = planned.plan.exactly_off();
+  planned.unaudited = unaudited(planned.measurements);
   clock.end_stage("effects");
   planned.facts = {{"scene", scene_facts(planned)},
                    {"settings", {{"requested", to_json(request)}}},
                    {"effects", effects_json(planned.plan)},
+                   {"effects_bound", {{"mean", bound_json(planned.plan.total_mean_bound())},
+                                      {"max", bound_json(planned.plan.total_max_bound())}}},
+                   {"unaudited", planned.unaudited},
                    {"counts", json::object()},
                    {"energy", {{"emitted", planned.measurements.emitted_flux}, {"absorbed", nullptr},
                                {"escaped", nullptr}, {"truncated", nullptr}, {"closure_error", nullptr}}},
@@ -139,7 +168,10 @@ RadiositySolution emitters_alone(const World& world, std::uint64_t seed) {
 /// Radiosity, senders and grid of a view that gathers.
 void prepare_gather(Planned& planned, const RenderRequest& request, StageClock& clock, View& view,
                     PreparedFiles& files) {
-  const World& world = *planned.world;
+  std::optional<World> specialised;
+  const EffectSet off = planned.settings.effects_off;
+  if (changes_scene(off)) specialised.emplace(specialise(planned.world->scene, off));
+  const World& world = specialised ? *specialised : *planned.world;
   const bool is_reflecting = planned.plan.is_active("interreflection");
   const RadiositySolution solution = is_reflecting
                                          ? solve_radiosity(world, planned.settings.radiosity, request.seed)
@@ -154,7 +186,6 @@ void prepare_gather(Planned& planned, const RenderRequest& request, StageClock& 
   clock.end_stage("radiosity");
 
   Settings& settings = view.settings;
-  settings.has_interreflection = is_reflecting ? 1 : 0;
   const bool is_full = request.integrator == RenderRequest::Integrator::kFullGather;
   if (is_full) settings.senders.threshold = 0;
   if (!is_full && !request.threshold && !solution.hierarchy.nodes.empty()) {
@@ -190,6 +221,8 @@ Result<json> explain(const std::filesystem::path& scene_file, const RenderReques
   StageClock clock;
   RADFARM_TRY(Planned planned, plan(scene_file, request, clock));
   planned.facts["settings"]["resolved"] = to_json(planned.settings);
+  const ExpectedCost cost = expect_cost(*planned.world, planned.camera.camera, planned.settings);
+  planned.facts["expected"] = {{"cpu_s", {cost.low, cost.high}}, {"audit_cpu_s", cost.audit}, {"ray_s", cost.ray_seconds}};
   planned.facts["stages"] = clock.stages();
   return planned.facts;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <mutex>
 #include <optional>
 
+#include "effects/specialise.h"
 #include "frame/view.h"
 #include "pipeline/pipeline.h"
 #include "scene/world.h"
@@ -12,14 +14,24 @@ namespace radfarm {
 
 /// What a Prepared holds; known to this module only.
 struct Prepared::Parts {
-  Parts(View opened, Scene scene, SenderTree sending)
-      : view(std::move(opened)), world(std::move(scene)), tree(std::move(sending)) {}
+  Parts(View opened, Scene loaded, SenderTree sending)
+      : view(std::move(opened)),
+        world(specialise(loaded, view.settings.effects_off)),
+        tree(std::move(sending)),
+        scene(is_exact() ? Scene() : std::move(loaded)) {}
   const View view;
-  const World world;
+  const World world;                  // without the effects that are off
   const SenderTree tree;              // empty unless the integrator gathers
   std::optional<SenderLookup> lookup;
   std::optional<SenderGrid> senders;
-  bool has_interreflection = true;
+  bool is_exact() const { return view.settings.effects_off == view.settings.exactly_off; }
+  /// With all effects but those that change nothing: made when an audit task first asks; the same world where it can be.
+  const World& audited() const;
+  bool has_interreflection() const { return !contains(view.settings.effects_off, Effect::kInterreflection); }
+
+  const Scene scene;                  // as loaded; empty where `world` is all that is needed
+  mutable std::once_flag is_audited;
+  mutable std::optional<World> audit_world;
 };
 
 }  // namespace radfarm

@@ -42,18 +42,38 @@ void resolve_size(const RenderRequest& request, const Camera& camera, Settings& 
 
 }  // namespace
 
+namespace {
+
+/// What the request says of film and lens goes before what the file says.
+ChosenCamera with_lens(Camera camera, bool is_framed, const RenderRequest& request) {
+  if (request.lens_diameter) camera.lens_diameter = *request.lens_diameter;
+  if (request.focus_distance) camera.focus_distance = *request.focus_distance;
+  return {std::move(camera), is_framed};
+}
+
+Result<Camera> placed_camera(const RenderRequest::PlacedCamera& placed, const Vec3d& origin) {
+  RADFARM_TRY(Camera camera, place_camera(to_float(placed.eye - origin), to_float(placed.look_at - origin),
+                                          to_float(placed.up_vector),
+                                          static_cast<float>(placed.vertical_fov_degrees * std::numbers::pi / 180)));
+  camera.focus_distance = static_cast<float>(length(placed.look_at - placed.eye));
+  if (placed.orthographic_height) {
+    camera.kind = Camera::Kind::kOrthographic;
+    camera.half_height = static_cast<float>(*placed.orthographic_height / 2);
+  }
+  return camera;
+}
+
+}  // namespace
+
 Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& request) {
   if (const auto* placed = std::get_if<RenderRequest::PlacedCamera>(&request.camera)) {
-    RADFARM_TRY(const Camera camera,
-                place_camera(to_float(placed->eye - scene.origin), to_float(placed->look_at - scene.origin),
-                             to_float(placed->up_vector),
-                             static_cast<float>(placed->vertical_fov_degrees * std::numbers::pi / 180)));
-    return ChosenCamera{camera, false};
+    RADFARM_TRY(Camera camera, placed_camera(*placed, scene.origin));
+    return with_lens(std::move(camera), false, request);
   }
   const auto& named = std::get<RenderRequest::NamedCamera>(request.camera);
-  if (named.name_or_index.empty() && scene.cameras.empty()) return ChosenCamera{frame_scene(scene), true};
-  RADFARM_TRY(const Camera camera, find_camera(scene, named.name_or_index.empty() ? "0" : named.name_or_index));
-  return ChosenCamera{camera, false};
+  if (named.name_or_index.empty() && scene.cameras.empty()) return with_lens(frame_scene(scene), true, request);
+  RADFARM_TRY(Camera camera, find_camera(scene, named.name_or_index.empty() ? "0" : named.name_or_index));
+  return with_lens(std::move(camera), false, request);
 }
 
 float threshold_share(RenderRequest::Quality quality) {

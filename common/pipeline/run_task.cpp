@@ -10,20 +10,22 @@
 namespace radfarm {
 namespace {
 
-Film film_of(const View& view) {
-  return {view.camera, view.settings.width, view.settings.height, view.settings.seed};
+Film film_of(const View& view, EffectSet off) {
+  Film film{view.camera, view.settings.width, view.settings.height, view.settings.seed};
+  if (contains(off, Effect::kDepthOfField)) film.camera.lens_diameter = 0;
+  return film;
 }
 
-SampleRadiance path_integrator(const Prepared::Parts& parts) {
-  return [&world = parts.world](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
-    return trace_path(world, ray, sampler, counters);
+SampleRadiance path_integrator(const World& world, bool has_interreflection) {
+  return [&world, has_interreflection](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
+    return trace_path(world, ray, sampler, counters, has_interreflection);
   };
 }
 
 SampleRadiance integrator(const Prepared::Parts& parts) {
-  if (!parts.senders) return path_integrator(parts);
+  if (!parts.senders) return path_integrator(parts.world, parts.has_interreflection());
   const GatherContext context{parts.world, parts.tree, *parts.lookup, *parts.senders, parts.view.settings.senders,
-                              parts.has_interreflection};
+                              parts.has_interreflection()};
   return [context](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
     return gather_radiance(context, ray, sampler, counters);
   };
@@ -33,15 +35,16 @@ std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t inde
   const Settings& settings = parts.view.settings;
   TileResult result;
   result.rect = tile_rect(settings, index);
-  result.pixels = render_tile(film_of(parts.view), result.rect, settings.camera_samples, integrator(parts),
+  result.pixels = render_tile(film_of(parts.view, settings.effects_off), result.rect, settings.camera_samples, integrator(parts),
                               result.counters);
   return encode(result);
 }
 
 std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t index) {
   const Settings& settings = parts.view.settings;
-  const Film film = film_of(parts.view);
-  const SampleRadiance path = path_integrator(parts);
+  const Film film = film_of(parts.view, settings.exactly_off);
+  const bool has_interreflection = !contains(settings.exactly_off, Effect::kInterreflection);
+  const SampleRadiance path = path_integrator(parts.audited(), has_interreflection);
   AuditResult result;
   for (const AuditPixel& chosen : audit_task_pixels(settings, index)) {
     AuditResult::Pixel pixel{chosen.x, chosen.y, {}, {}};
@@ -55,6 +58,12 @@ std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t ind
 }
 
 }  // namespace
+
+const World& Prepared::Parts::audited() const {
+  if (is_exact()) return world;
+  std::call_once(is_audited, [&] { audit_world.emplace(specialise(scene, view.settings.exactly_off)); });
+  return *audit_world;
+}
 
 Prepared::Prepared(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Prepared::Prepared(Prepared&&) noexcept = default;
@@ -70,11 +79,11 @@ Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<cons
     return Prepared(std::make_unique<Parts>(std::move(opened), std::move(decoded), SenderTree()));
   }
   RADFARM_TRY(SenderTree tree, decode_sender_tree(solution));
-  RADFARM_TRY(SenderGridFile grid, decode_sender_grid(opened.grid, opened.camera, tree));
   auto parts = std::make_unique<Parts>(std::move(opened), std::move(decoded), std::move(tree));
+  RADFARM_TRY(SenderGridFile grid, decode_sender_grid(parts->view.grid, parts->view.camera, parts->tree,
+                                                      parts->world.environment.patches().size()));
   parts->lookup.emplace(parts->world, parts->tree);
   parts->senders.emplace(std::move(grid), parts->world, parts->tree, parts->view.settings.senders, settings.seed);
-  parts->has_interreflection = settings.has_interreflection != 0;
   return Prepared(std::move(parts));
 }
 

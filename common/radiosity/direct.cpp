@@ -1,6 +1,7 @@
 #include "radiosity/direct.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -32,17 +33,24 @@ Spectrum by_next_event(const World& world, const SurfacePoint& point, float choi
   return event.weight * (balance_of_event(event, cosine * kInversePi) * cosine);
 }
 
-/// Irradiance from the emitter that a cosine-distributed ray meets: what lies so close that next events hardly choose it.
+/// Irradiance from the emitter or the sky that a cosine-distributed ray meets: what lies so close that next events hardly choose it.
 Spectrum by_ray(const World& world, const SurfacePoint& point, const Vec2& u, std::uint64_t key) {
   const Vec3 local = sample_cosine_hemisphere(u);
   const Ray ray{leave(point), normalize(Frame(point.shading_normal).to_world(local))};
   if (!(dot(ray.direction, point.geometric_normal) > 0)) return {};
-  const auto hit = world.caster.closest(ray, key);
-  if (!hit || world.emitters.find(hit->instance, hit->triangle) == kNone) return {};
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Spectrum passed(1.0F);
+  const float pdf = pdf_cosine_hemisphere(local);
+  const auto hit = world.caster.closest(ray, key, kInfinity, &passed);
+  if (!hit && world.environment.is_empty()) return {};
+  if (!hit) {
+    return world.environment.radiance(ray.direction) * passed * (balance_of_sky(world, ray.direction, pdf) * kPi);
+  }
+  if (world.emitters.find(hit->instance, hit->triangle) == kNone) return {};
   SurfacePoint target = world.surfaces.at(*hit);
   face(target, -ray.direction);
-  const float weight = balance_of_hit(world, *hit, point.position, ray.direction, pdf_cosine_hemisphere(local));
-  return world.surfaces.emission(target) * (weight * kPi);
+  const float weight = balance_of_hit(world, *hit, point.position, ray.direction, pdf);
+  return world.surfaces.emission(target) * hit->weight * (weight * kPi);
 }
 
 Spectrum sample_patch(const World& world, const Patch& patch, std::uint32_t samples, std::uint64_t key) {

@@ -59,7 +59,7 @@ Patch make_patch(const World& world, std::uint32_t instance, std::uint32_t trian
   patch.is_front = is_front ? 1 : 0;
   average_material(world, hit, is_front, patch);
   const Material& material = world.scene.materials[point.material];
-  patch.is_textured_emitter = material.emission_texture != kNone && !is_black(patch.emission) ? 1 : 0;
+  patch.is_textured_emitter = material.emission_texture.texture != kNone && !is_black(patch.emission) ? 1 : 0;
   return patch;
 }
 

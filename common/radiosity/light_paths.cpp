@@ -1,6 +1,7 @@
 #include "radiosity/light_paths.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -15,6 +16,7 @@ constexpr std::uint64_t kPathKey = 0x6c70617468;  // "lpath"
 constexpr std::size_t kBatch = 1 << 16;           // paths whose hits are held at once
 constexpr std::size_t kGrain = 512;
 constexpr float kMaxSurvival = 0.99F;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // 25 % noise: below that, the guess says better how a node's light is shared.
 constexpr std::uint32_t kEnoughHits = 16;
 // This share of the guess is spread evenly: links may have left dark what paths meet.
@@ -58,7 +60,11 @@ void follow_path(const Tracer& tracer, std::uint32_t index, Run& run) {
   Spectrum power = start.power * tracer.per_path;
   for (std::uint32_t bounce = 0; luminance(power) > 0; ++bounce) {
     const std::uint64_t bounce_key = combine(key, 4, bounce);
-    const auto hit = tracer.world.caster.closest(ray, combine(bounce_key, 1, index));
+    Spectrum passed(1.0F);
+    const auto hit = tracer.world.caster.closest(ray, combine(bounce_key, 1, index), kInfinity, &passed);
+    const Spectrum left = power * (hit ? hit->weight : passed);
+    run.absorbed += static_cast<double>(luminance(power) - luminance(left));  // by panes
+    power = left;
     if (!hit) {
       run.escaped += static_cast<double>(luminance(power));
       return;
@@ -67,7 +73,8 @@ void follow_path(const Tracer& tracer, std::uint32_t index, Run& run) {
     face(point, -ray.direction);
     // The adjoint of reflecting about the shading normal: irradiance counts its cosine. [Veach 1997, 5.3]
     const float bend = std::max(0.0F, dot(point.shading_normal, ray.direction) / dot(point.geometric_normal, ray.direction));
-    const Spectrum reflected = power * tracer.world.surfaces.reflectance(point) * bend;
+    const float cosine = -dot(point.shading_normal, ray.direction);
+    const Spectrum reflected = power * tracer.world.surfaces.reflectance(point, cosine) * bend;
     const std::uint32_t leaf = tracer.node_of_side[tracer.sides.of(hit->instance, hit->triangle, point.is_front)];
     run.absorbed += static_cast<double>(luminance(power) - luminance(reflected));
     if (bounce > 0 && leaf != kNone) run.hits.push_back({part_at(tracer.hierarchy, leaf, point.position), reflected});

@@ -8,11 +8,14 @@
 #include "math/polygon_irradiance.h"
 #include "math/sobol.h"
 #include "radiosity/oracles.h"
+#include "scene/emitter_sampling.h"
 
 namespace radfarm {
 namespace {
 
 constexpr std::uint32_t kMaxSamples = 64;
+constexpr std::uint32_t kSkyLines = 16;  // of each point of a receiver
+constexpr std::uint32_t kSunLines = 2;
 constexpr std::uint64_t kLinkKey = 0x6c696e6b;  // "link"
 
 /// What the lines between two elements found.
@@ -72,7 +75,7 @@ void add_line(const World& world, Lines& lines, float kernel, float cosine, cons
   const std::uint32_t line = lines.count++;
   lines.cosine += static_cast<double>(std::max(0.0F, cosine));
   if (!(kernel > 0)) return;
-  const float visible = world.caster.transmittance(from, to);
+  const float visible = luminance(world.caster.transmittance(from, to));
   lines.carried[line] = kernel * visible;
   lines.unoccluded += static_cast<double>(kernel);
   lines.arrived += static_cast<double>(kernel * visible);
@@ -105,6 +108,34 @@ Lines draw_lines(const World& world, const Hierarchy& hierarchy, const Node& rec
     add_line(world, lines, kernel_at(hierarchy, x, y), dot(x.normal, to_sender), x.leave(), y.leave());
   }
   return lines;
+}
+
+/// One point's light from the sky's map or from its sun, as one line.
+void add_sky_lines(const World& world, bool is_map, const NodeSample& x, std::uint64_t key, Lines& lines) {
+  const auto patches = static_cast<std::uint32_t>(world.environment.patches().size());
+  const std::uint32_t sun = world.environment.has_sun() ? 1 : 0;
+  const std::uint32_t count = is_map ? kSkyLines : kSunLines;
+  if (is_map ? patches == sun : sun == 0) return;
+  float unoccluded = 0, arrived = 0, facing = 0;
+  Vec3 direction(0, 0, 0);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec2 u = sobol_owen_2d(i, key);
+    const auto sky = is_map ? world.environment.sample_map(static_cast<double>(sobol_owen_1d(i, combine(key, 1))), u)
+                            : world.environment.sample_patch(patches - 1, u);
+    const float cosine = dot(x.normal, sky.direction);
+    const float normal = sky.pdf > 0 ? luminance(sky.radiance) / (sky.pdf * static_cast<float>(count)) : 0;
+    facing += normal;
+    if (!(cosine > 0 && normal > 0)) continue;
+    const Vec3 start = x.leave();
+    unoccluded += normal * cosine;
+    arrived += normal * cosine * luminance(world.caster.transmittance(start, beyond_scene(world, start, sky.direction)));
+    direction += sky.direction * (normal * cosine);
+  }
+  lines.cosine += facing > 0 ? static_cast<double>(unoccluded / facing) : 0;
+  lines.carried[lines.count++] = arrived;
+  lines.unoccluded += static_cast<double>(unoccluded);
+  lines.arrived += static_cast<double>(arrived);
+  lines.direction += to_double(direction);
 }
 
 /// Turns sums over lines into a transport factor: at normal incidence, or with the receiver's cosine included.
@@ -154,22 +185,26 @@ Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t
   return link;
 }
 
-Link evaluate_punctual(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t light,
-                       std::uint32_t samples, std::uint64_t seed) {
+Link evaluate_source(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t source,
+                     std::uint32_t samples, std::uint64_t seed) {
   const Node& to = hierarchy.nodes[receiver];
-  const std::uint64_t key = combine(seed, kLinkKey, receiver, light, 3);
+  const std::uint64_t key = combine(seed, kLinkKey, receiver, source, 3);
   Lines lines;
   for (std::uint32_t i = 0; i < std::min(samples, kMaxSamples); ++i) {
     const NodeSample x = sample_node(hierarchy, to, SampleBy::kArea,
                                      static_cast<double>(sobol_owen_1d(i, combine(key, 1))),
                                      sobol_owen_2d(i, combine(key, 2)));
-    const PunctualArrival arrival = arrive(world.emitters.punctual[light], x.position, world.radius);
-    const float cosine = dot(x.normal, arrival.direction);
-    add_line(world, lines, luminance(arrival.irradiance) * std::max(0.0F, cosine), cosine, x.leave(), arrival.target);
+    if (source < world.emitters.punctual.size()) {
+      const PunctualArrival arrival = arrive(world.emitters.punctual[source], x.position, world.radius);
+      const float cosine = dot(x.normal, arrival.direction);
+      add_line(world, lines, luminance(arrival.irradiance) * std::max(0.0F, cosine), cosine, x.leave(), arrival.target);
+    } else {
+      add_sky_lines(world, source == world.emitters.punctual.size(), x, combine(key, 4), lines);
+    }
   }
   Link link;
   link.receiver = receiver;
-  link.sender = punctual_sender(light);
+  link.sender = source_sender(source);
   link.evaluated = kEmittedPart;
   link.emitted = transport(lines, to.is_cluster());
   link.emitted_error = lines.error(0);

@@ -18,9 +18,9 @@ struct Link {
   bool has_direction(const Node& receiver_node) const { return receiver_node.is_cluster() && receiver != sender; }
 
   std::uint32_t receiver = 0;
-  std::uint32_t sender = 0;         // a node, or punctual_sender(light)
+  std::uint32_t sender = 0;         // a node, or source_sender(source)
   Vec3 direction{0, 0, 0};          // unit, from receiver to sender
-  float emitted = 0;                // 1/m^2; of a punctual light: lux (luminance)
+  float emitted = 0;                // 1/m^2; of a source: lux (luminance)
   float reflected = 0;              // 1/m^2
   float emitted_error = 0;          // 1/m^2: the oracle's part of `emitted` that may be misplaced
   float reflected_error = 0;
@@ -29,10 +29,13 @@ struct Link {
   std::uint32_t evaluated = 0;      // parts of the sender's light it was evaluated for: kEmittedPart | kReflectedPart
 };
 
-/// Senders that are punctual lights count down from the top.
-constexpr std::uint32_t punctual_sender(std::uint32_t light) { return kNone - 1 - light; }
-constexpr bool is_punctual(std::uint32_t sender) { return sender >= 0x80000000U; }
-constexpr std::uint32_t punctual_index(std::uint32_t sender) { return kNone - 1 - sender; }
+/// Senders that are no surfaces count down from the top: the punctual lights, then the sky's map, then its sun.
+constexpr std::uint32_t source_sender(std::uint32_t source) { return kNone - 1 - source; }
+constexpr bool is_source(std::uint32_t sender) { return sender >= 0x80000000U; }
+constexpr std::uint32_t source_index(std::uint32_t sender) { return kNone - 1 - sender; }
+inline std::uint32_t source_count(const World& world) {
+  return static_cast<std::uint32_t>(world.emitters.punctual.size()) + (world.environment.is_empty() ? 0 : 2);
+}
 
 /// Whether it is certain that no light passes from one node to the other: they look away from each other.
 bool cannot_see(const Hierarchy& hierarchy, std::uint32_t a, std::uint32_t b);
@@ -40,13 +43,13 @@ bool cannot_see(const Hierarchy& hierarchy, std::uint32_t a, std::uint32_t b);
 /// Evaluates a link with `samples` random lines between the elements for each of `parts` (kEmittedPart, kReflectedPart).
 /// Unoccluded factors of patch senders are exact (Lambert's polygon formula), of clusters sampled. Keyed by (seed, receiver,
 /// sender): the same bits whoever computes it. About 0.5 us a line.
-/// Requires: sender < hierarchy.nodes.size() (punctual lights: evaluate_punctual).
+/// Requires: sender < hierarchy.nodes.size() (sources: evaluate_source).
 Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t sender,
                    std::uint32_t parts, std::uint32_t samples, std::uint64_t seed);
 
-/// The same for punctual light `light` of world.emitters: `emitted` is the mean irradiance (luminance, at normal incidence
-/// for clusters) in lux that arrives, to be scaled by the light's colour.
-Link evaluate_punctual(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t light,
-                       std::uint32_t samples, std::uint64_t seed);
+/// The same for a source: `emitted` is the mean irradiance (luminance, at normal incidence for clusters) in lux that arrives. Each
+/// of the `samples` points of a receiver looks at the sky in the same directions, so that what differs is what hides it.
+Link evaluate_source(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t source,
+                     std::uint32_t samples, std::uint64_t seed);
 
 }  // namespace radfarm

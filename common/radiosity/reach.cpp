@@ -40,9 +40,12 @@ struct Side {
   bool is_front;
 };
 
+// In a list of sides met: the sky.
+constexpr std::uint32_t kSky = kNone - 1;
+
 std::uint32_t side_met(const World& world, const SideNumbers& sides, const Ray& ray, std::uint64_t key) {
   const auto hit = world.caster.closest(ray, key);
-  if (!hit) return kNone;
+  if (!hit) return world.environment.is_empty() ? kNone : kSky;
   SurfacePoint point = world.surfaces.at(*hit);
   face(point, -ray.direction);
   return sides.of(hit->instance, hit->triangle, point.is_front);
@@ -86,14 +89,14 @@ double area_of(const World& world, const Side& side) {
 }
 
 /// Sides that a point or spot light's rays meet, or that a directional light shines on.
-void mark_lit_by(const World& world, const SideNumbers& sides, const std::vector<Side>& list, const PunctualLight& light,
+void mark_lit_by(const World& world, const SideNumbers& sides, const std::vector<Side>& list, const PunctualEmitter& light,
                  std::uint64_t key, Groups& groups, std::vector<bool>& lit) {
   if (light.kind == PunctualLight::Kind::kDirectional) {
     for (std::uint32_t s = 0; s < list.size(); ++s) {
       const SurfacePoint point = point_on(world, list[s], sobol_owen_2d(s, key));
       const PunctualArrival arrival = arrive(light, point.position, world.radius);
       if (dot(point.geometric_normal, arrival.direction) > 0 &&
-          world.caster.transmittance(leave(point), arrival.target) > 0) {
+          !is_black(world.caster.transmittance(leave(point), arrival.target))) {
         lit[groups.root(s)] = true;
       }
     }
@@ -102,7 +105,7 @@ void mark_lit_by(const World& world, const SideNumbers& sides, const std::vector
   for (std::uint32_t i = 0; i < kRaysPerLight; ++i) {
     const Ray ray{light.position, sample_uniform_sphere(sobol_owen_2d(i, key))};
     const std::uint32_t met = side_met(world, sides, ray, combine(key, i));
-    if (met != kNone) lit[groups.root(met)] = true;
+    if (met != kNone && met != kSky) lit[groups.root(met)] = true;
   }
 }
 
@@ -131,9 +134,14 @@ std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, 
   });
   Groups groups(list.size());
   for (std::uint32_t s = 0; s < list.size(); ++s) {
-    for (const std::uint32_t other : met[s]) groups.join(s, other);
+    for (const std::uint32_t other : met[s]) {
+      if (other != kSky) groups.join(s, other);
+    }
   }
   std::vector<bool> lit(list.size());
+  for (std::uint32_t s = 0; s < list.size(); ++s) {
+    if (std::find(met[s].begin(), met[s].end(), kSky) != met[s].end()) lit[groups.root(s)] = true;
+  }
   for (const EmissiveTriangle& t : world.emitters.triangles) {
     lit[groups.root(sides.of(t.instance, t.triangle, true))] = true;
     if (t.both_sides) lit[groups.root(sides.of(t.instance, t.triangle, false))] = true;

@@ -25,12 +25,12 @@ struct Round {
 };
 
 double sender_emits(const Round& round, const Link& link) {
-  if (is_punctual(link.sender)) return 1;  // its strength is in the factor
+  if (is_source(link.sender)) return 1;  // its strength is in the factor
   return static_cast<double>(luminance(round.hierarchy.nodes[link.sender].emitted_power));
 }
 
 double sender_reflects(const Round& round, const Link& link) {
-  return is_punctual(link.sender) ? 0 : static_cast<double>(luminance(round.reflected[link.sender]));
+  return is_source(link.sender) ? 0 : static_cast<double>(luminance(round.reflected[link.sender]));
 }
 
 /// Power that the link may misplace, lm: rho A_r F D P. Light that a dark receiver swallows is light that others do not
@@ -50,8 +50,8 @@ bool is_outdated(const Round& round, const Link& link) {
 }
 
 Link evaluate(const Round& round, const Link& link) {
-  if (is_punctual(link.sender)) {
-    return evaluate_punctual(round.world, round.hierarchy, link.receiver, punctual_index(link.sender),
+  if (is_source(link.sender)) {
+    return evaluate_source(round.world, round.hierarchy, link.receiver, source_index(link.sender),
                              round.settings.samples_per_link, round.seed);
   }
   const std::uint32_t parts = (sender_emits(round, link) > 0 ? kEmittedPart : 0) |
@@ -87,7 +87,7 @@ Cut choose_cut(const Round& round, const Link& link) {
     return round.hierarchy.nodes[link.receiver].is_cluster() ? Cut::kBoth : Cut::kNone;
   }
   const bool receiver = can_split(round, link.receiver);
-  if (is_punctual(link.sender)) return receiver ? Cut::kReceiver : Cut::kNone;
+  if (is_source(link.sender)) return receiver ? Cut::kReceiver : Cut::kNone;
   const bool sender = can_split(round, link.sender);
   if (!receiver && !sender) return Cut::kNone;
   if (!sender) return Cut::kReceiver;
@@ -98,7 +98,7 @@ Cut choose_cut(const Round& round, const Link& link) {
 }
 
 void push_candidate(const Round& round, std::uint32_t receiver, std::uint32_t sender, std::vector<Link>& next) {
-  if (!is_punctual(sender) && receiver != sender && cannot_see(round.hierarchy, receiver, sender)) return;
+  if (!is_source(sender) && receiver != sender && cannot_see(round.hierarchy, receiver, sender)) return;
   if (receiver == sender && !round.hierarchy.nodes[receiver].is_cluster()) return;
   Link link;
   link.receiver = receiver;
@@ -133,9 +133,9 @@ std::vector<Link> initial_links(const World& world, const Hierarchy& hierarchy) 
   std::vector<Link> links;
   if (hierarchy.nodes.empty()) return links;
   links.emplace_back();
-  for (std::uint32_t i = 0; i < world.emitters.punctual.size(); ++i) {
+  for (std::uint32_t i = 0; i < source_count(world); ++i) {
     links.emplace_back();
-    links.back().sender = punctual_sender(i);
+    links.back().sender = source_sender(i);
   }
   return links;
 }
@@ -148,7 +148,7 @@ std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflecte
   set_reflected_power(hierarchy, reflected);
   // What a cluster sends where depends on which of its patches are lit: measured again with the light known now.
   for (Link& link : links) {
-    if (!is_punctual(link.sender) && hierarchy.nodes[link.sender].is_cluster()) link.evaluated &= ~kReflectedPart;
+    if (!is_source(link.sender) && hierarchy.nodes[link.sender].is_cluster()) link.evaluated &= ~kReflectedPart;
   }
   std::vector<Link> accepted, candidates = std::move(links), next;
   std::size_t splits = 0;
@@ -180,7 +180,7 @@ void measure_again(const World& world, Hierarchy& hierarchy, const NodePower& re
                    const RadiositySettings& settings, std::uint64_t seed) {
   set_reflected_power(hierarchy, reflected);
   std::erase_if(links, [&](const Link& link) {
-    return is_punctual(link.sender) || !(luminance(reflected[link.sender]) > 0);
+    return is_source(link.sender) || !(luminance(reflected[link.sender]) > 0);
   });
   parallel_for(links.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -119,9 +119,19 @@ void solve_links(const World& world, const std::vector<Link>& links, const Radio
 /// Paths enough for `hits_per_patch`, by how much light the links found after its first reflection.
 std::size_t count_paths(const RadiositySettings& settings, const RadiositySolution& solution) {
   const double bounces = luminance(SpectrumD(solution.reflected_power[0])) / solution.energy.emitted;
-  const auto patches = static_cast<double>(std::count_if(solution.hierarchy.nodes.begin(), solution.hierarchy.nodes.end(), is_undivided));
+  const std::vector<Node>& nodes = solution.hierarchy.nodes;
+  const auto patches = static_cast<double>(std::count_if(nodes.begin(), nodes.end(), is_undivided));
   const double hits = settings.hits_per_patch * patches;
   return static_cast<std::size_t>(std::clamp(hits / std::max(bounces, 0.05), kMinPaths, kMaxPaths / std::max(bounces, 1.0)));
+}
+
+/// Light that arrives at surfaces straight from emitters, lm. Of a sky's, most misses a small scene.
+double landed(const Hierarchy& hierarchy, const std::vector<Spectrum>& direct) {
+  double sum = 0;
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    if (is_undivided(hierarchy.nodes[i])) sum += static_cast<double>(luminance(direct[i]) * hierarchy.nodes[i].area);
+  }
+  return sum;
 }
 
 /// What undivided patches reflect of the light that emitters give them, lm.
@@ -159,7 +169,7 @@ RadiositySolution solve_radiosity(const World& world, const RadiositySettings& s
   const SideNumbers sides(world.scene);
   solution.hierarchy = build_hierarchy(world, sides, reachable_sides(world, sides, seed));
   solution.reflected_power.resize(solution.hierarchy.nodes.size());
-  const double flux = world.emitters.total_flux;
+  double flux = world.emitters.total_flux;  // that errors are shares of
   if (solution.hierarchy.nodes.empty() || !(flux > 0)) return solution;
   std::vector<Link> links = initial_links(world, solution.hierarchy);
   std::vector<Spectrum> direct;
@@ -171,6 +181,7 @@ RadiositySolution solve_radiosity(const World& world, const RadiositySettings& s
     if (is_last) measure_again(world, solution.hierarchy, solution.reflected_power, links, settings, seed);
     set_reflected_power(solution.hierarchy, solution.reflected_power);
     sample_direct(world, solution.hierarchy, seed, direct);
+    if (!world.environment.is_empty()) flux = std::min(flux, std::max(landed(solution.hierarchy, direct), 1e-3 * flux));
     solve_links(world, links, settings, direct, combine(seed, solution.passes), solution);
   }
   solution.links = links.size();

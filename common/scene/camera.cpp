@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "math/sampling.h"
 #include "scene/opening.h"
 #include "scene/surface_samples.h"
 
@@ -48,6 +49,16 @@ Ray camera_ray(const Camera& camera, int width, int height, float x, float y) {
   const Vec3 offset = camera.right * right + camera.up * up;
   if (camera.kind == Camera::Kind::kOrthographic) return {camera.position + offset, camera.forward};
   return {camera.position, normalize(camera.forward + offset)};
+}
+
+Ray camera_ray(const Camera& camera, int width, int height, float x, float y, const Vec2& lens) {
+  const Ray pinhole = camera_ray(camera, width, height, x, y);
+  if (camera.kind != Camera::Kind::kPerspective || !(camera.lens_diameter > 0)) return pinhole;
+  // The focus distance runs along the view, not along the ray.
+  const Vec3 focus = pinhole.direction * (camera.focus_distance / dot(pinhole.direction, camera.forward));
+  const Vec2 disc = sample_uniform_disk(lens) * (camera.lens_diameter / 2);
+  const Vec3 offset = camera.right * disc.x + camera.up * disc.y;
+  return {camera.position + offset, normalize(focus - offset)};
 }
 
 Result<Camera> place_camera(const Vec3& eye, const Vec3& look_at, const Vec3& up, float vertical_fov) {

@@ -15,6 +15,11 @@ struct Ray {
 /// The ray through the film at (x, y) in pixels, (0, 0) the top left corner of the image, pixel centres at .5.
 Ray camera_ray(const Camera& camera, int width, int height, float x, float y);
 
+/// The same through the point of the lens that the uniform random numbers `lens` choose, evenly over its disc: all of
+/// these rays meet where the pinhole's ray meets the plane of focus. Orthographic cameras and those without a lens
+/// diameter give the pinhole's ray, bit for bit.
+Ray camera_ray(const Camera& camera, int width, int height, float x, float y, const Vec2& lens);
+
 /// A camera that looks from `eye` at `look_at`. INVALID_ARGUMENT when they coincide; an up vector along the view is
 /// replaced by another axis.
 Result<Camera> place_camera(const Vec3& eye, const Vec3& look_at, const Vec3& up, float vertical_fov);

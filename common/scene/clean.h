@@ -5,7 +5,7 @@
 namespace radfarm {
 
 /// Brings a loaded scene into the form that validate() proves, with a note for whatever it drops or replaces: triangles
-/// without area (ALGORITHMS.md H1), meshes without triangles, instances of zero scale; normals become unit, and those
+/// without area (ALGORITHMS.md H1) or exactly on others of their mesh, meshes without triangles, instances of zero scale; normals become unit, and those
 /// that are zero become the surface's own.
 void clean_scene(Scene& scene);
 

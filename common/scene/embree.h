@@ -24,20 +24,11 @@ inline void occluded(RTCScene scene, Context& context, RTCRay& ray) {
   arguments.context = &context;
   rtcOccluded1(scene, &ray, &arguments);
 }
-inline void occluded8(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.context = &context;
-  rtcOccluded8(valid, scene, &rays, &arguments);
-}
 #else
 using Context = RTCIntersectContext;
 inline void start(Context& context) { rtcInitIntersectContext(&context); }
 inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) { rtcIntersect1(scene, &context, &ray_hit); }
 inline void occluded(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
-inline void occluded8(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
-  rtcOccluded8(valid, scene, &context, &rays);
-}
 #endif
 
 }  // namespace radfarm::rtc

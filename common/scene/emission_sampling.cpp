@@ -19,12 +19,23 @@ EmittedRay emit_from_triangle(const World& world, const EmissiveTriangle& t, Vec
   return {{leave(point), normalize(way)}, power};
 }
 
-EmittedRay emit_from_light(const World& world, const PunctualLight& light, const Vec2& place, const Vec2& direction) {
-  if (light.kind == PunctualLight::Kind::kDirectional) {
-    const Vec2 disk = sample_uniform_disk(place) * world.radius;
-    const Vec3 across = Frame(light.direction).to_world(Vec3(disk.x, disk.y, 0));
-    return {{across - light.direction * (2 * world.radius), light.direction},
-            light.intensity * (kPi * world.radius * world.radius)};
+/// Light of one direction over the disk that the scene's sphere fills. `irradiance`: of a surface that faces it, lux.
+EmittedRay emit_parallel(const World& world, const Vec3& way, const Spectrum& irradiance, const Vec2& place) {
+  const Vec2 disk = sample_uniform_disk(place) * world.radius;
+  const Vec3 across = Frame(way).to_world(Vec3(disk.x, disk.y, 0));
+  return {{across - way * (2 * world.radius), way}, irradiance * (kPi * world.radius * world.radius)};
+}
+
+EmittedRay emit_from_sky(const World& world, double choice, const Vec2& place, const Vec2& direction) {
+  const EnvironmentLight::Sample sky = world.environment.sample(choice, direction);
+  return emit_parallel(world, -sky.direction, sky.pdf > 0 ? sky.radiance / sky.pdf : Spectrum(), place);
+}
+
+EmittedRay emit_from_light(const World& world, const PunctualEmitter& light, const Vec2& place, const Vec2& direction) {
+  if (light.kind == PunctualLight::Kind::kDirectional) return emit_parallel(world, light.direction, light.intensity, place);
+  if (light.table != nullptr) {
+    const PhotometrySampler::Sample sample = light.sampler.sample(direction, light);
+    return {{light.position, sample.way}, intensity(light, sample.way) / sample.pdf};
   }
   // The sphere's cap around the light's direction: all of it for a point.
   const bool is_spot = light.kind == PunctualLight::Kind::kSpot;
@@ -41,9 +52,17 @@ EmittedRay emit_from_light(const World& world, const PunctualLight& light, const
 EmittedRay sample_emission(const World& world, double choice, const Vec2& place, const Vec2& direction) {
   const Emitters& emitters = world.emitters;
   const auto chosen = emitters.choice.sample(choice);
-  EmittedRay emitted = chosen.index < emitters.triangles.size()
-                           ? emit_from_triangle(world, emitters.triangles[chosen.index], place, direction)
-                           : emit_from_light(world, emitters.punctual[chosen.index - emitters.triangles.size()], place, direction);
+  const std::size_t light = chosen.index - emitters.triangles.size();  // wraps around for triangles
+  EmittedRay emitted;
+  if (chosen.index < emitters.triangles.size()) {
+    emitted = emit_from_triangle(world, emitters.triangles[chosen.index], place, direction);
+  } else if (light < emitters.punctual.size()) {
+    emitted = emit_from_light(world, emitters.punctual[light], place, direction);
+  } else {
+    // The sky is the last: what is left of the number that chose it chooses in it.
+    const double left = std::clamp((choice - (1 - chosen.probability)) / chosen.probability, 0.0, 0x1.fffffffffffffp-1);
+    emitted = emit_from_sky(world, left, place, direction);
+  }
   emitted.power *= static_cast<float>(1 / chosen.probability);
   return emitted;
 }

@@ -13,8 +13,8 @@ struct EmittedRay {
 };
 
 /// Chooses an emitter as sample_emitter() does, then a ray of its light: from triangles evenly by area and by the cosine, from
-/// points and spots evenly over the directions that they light, from directional lights parallel, over the disk that the
-/// scene's bounding sphere fills. `choice`, `place` and `direction` are uniform random numbers. Requires: emitters.size() > 0.
+/// points and spots evenly over the directions that they light, from IES lights by their tables, from directional lights and
+/// the sky parallel, over the disk that the scene's bounding sphere fills. `choice`, `place` and `direction` are uniform random numbers. Requires: emitters.size() > 0.
 EmittedRay sample_emission(const World& world, double choice, const Vec2& place, const Vec2& direction);
 
 }  // namespace radfarm

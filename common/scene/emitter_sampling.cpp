@@ -41,50 +41,83 @@ Hit hit_on(const World& world, const EmissiveTriangle& t, const Vec2& b) {
   return {t.instance, t.triangle, is_swapped ? b.y : b.x, is_swapped ? b.x : b.y, 0};
 }
 
-bool both_hemispheres(const SurfacePoint& point, const Vec3& direction) {
-  return dot(point.shading_normal, direction) > 0 && dot(point.geometric_normal, direction) > 0;
+/// Whether the geometric and the shading normal agree on which side light comes from, and light from there counts.
+bool is_open(const SurfacePoint& point, const Vec3& direction, bool sees_behind) {
+  const float geometric = dot(point.geometric_normal, direction), shading = dot(point.shading_normal, direction);
+  return (geometric > 0 && shading > 0) || (sees_behind && geometric < 0 && shading < 0);
 }
 
-NextEvent sample_triangle(const World& world, const SurfacePoint& point, std::uint32_t index, const Vec2& u) {
+NextEvent sample_triangle(const World& world, const SurfacePoint& point, std::uint32_t index, const Vec2& u,
+                          bool sees_behind) {
   const EmissiveTriangle& t = world.emitters.triangles[index];
   SurfacePoint target = world.surfaces.at(hit_on(world, t, sample_point(t, point.position, u)));
-  const Vec3 start = leave(point);
+  // A target in the point's own plane lies on either side by rounding: only what sees behind may start there.
+  const Vec3 start = sees_behind ? leave(point, target.position - point.position) : leave(point);
   const Vec3 offset = target.position - start;
   const float distance = length(offset);
   if (!(distance > 0)) return {};
   NextEvent event;
   event.direction = offset / distance;
   face(target, -event.direction);
-  if (!both_hemispheres(point, event.direction)) return {};
+  if (!is_open(point, event.direction, sees_behind)) return {};
   const Spectrum radiance = world.surfaces.emission(target);
   event.pdf = pdf_emitter(world, index, point.position, event.direction, distance);
   if (is_black(radiance) || !(event.pdf > 0)) return {};
   event.traced = true;
-  event.weight = radiance * (world.caster.transmittance(start, leave(target)) / event.pdf);
+  event.weight = radiance * world.caster.transmittance(start, leave(target)) / event.pdf;
   return event;
 }
 
-NextEvent sample_punctual(const World& world, const SurfacePoint& point, const PunctualLight& light, float probability) {
+NextEvent sample_punctual(const World& world, const SurfacePoint& point, const PunctualEmitter& light, float probability,
+                          bool sees_behind) {
   const PunctualArrival arrival = arrive(light, point.position, world.radius);
-  if (is_black(arrival.irradiance) || !both_hemispheres(point, arrival.direction)) return {};
+  if (is_black(arrival.irradiance) || !is_open(point, arrival.direction, sees_behind)) return {};
   NextEvent event;
   event.traced = true;
   event.direction = arrival.direction;
-  event.weight = arrival.irradiance * (world.caster.transmittance(leave(point), arrival.target) / probability);
+  event.weight = arrival.irradiance *
+                 world.caster.transmittance(leave(point, arrival.direction), arrival.target) / probability;
+  return event;
+}
+
+float sky_probability(const World& world) {
+  return static_cast<float>(world.emitters.choice.probability(world.emitters.size() - 1));
+}
+
+NextEvent sample_sky(const World& world, const SurfacePoint& point, float probability, float choice, const Vec2& u,
+                     bool sees_behind) {
+  const EnvironmentLight::Sample sky = world.environment.sample(static_cast<double>(choice), u);
+  NextEvent event;
+  event.direction = sky.direction;
+  event.pdf = probability * sky.pdf;
+  if (is_black(sky.radiance) || !(event.pdf > 0) || !is_open(point, sky.direction, sees_behind)) return {};
+  event.traced = true;
+  const Vec3 start = leave(point, sky.direction);
+  event.weight = sky.radiance * world.caster.transmittance(start, beyond_scene(world, start, sky.direction)) / event.pdf;
   return event;
 }
 
 }  // namespace
 
-NextEvent sample_emitter(const World& world, const SurfacePoint& point, float choice, const Vec2& u) {
+Vec3 beyond_scene(const World& world, const Vec3& start, const Vec3& direction) {
+  return start + direction * (2 * (world.radius + length(start)));
+}
+
+NextEvent sample_emitter(const World& world, const SurfacePoint& point, float choice, const Vec2& u, bool sees_behind) {
   const Emitters& emitters = world.emitters;
   if (emitters.size() == 0) return {};
   const auto chosen = emitters.choice.sample(choice);
-  if (chosen.index < emitters.triangles.size()) {
-    return sample_triangle(world, point, static_cast<std::uint32_t>(chosen.index), u);
-  }
   const auto probability = static_cast<float>(chosen.probability);
-  return sample_punctual(world, point, emitters.punctual[chosen.index - emitters.triangles.size()], probability);
+  if (chosen.index < emitters.triangles.size()) {
+    return sample_triangle(world, point, static_cast<std::uint32_t>(chosen.index), u, sees_behind);
+  }
+  const std::size_t light = chosen.index - emitters.triangles.size();
+  if (light < emitters.punctual.size()) {
+    return sample_punctual(world, point, emitters.punctual[light], probability, sees_behind);
+  }
+  // What is left of the number that chose the sky, which is the last, chooses in it.
+  const float left = std::min((choice - (1 - probability)) / probability, 0x1.fffffep-1F);
+  return sample_sky(world, point, probability, std::max(0.0F, left), u, sees_behind);
 }
 
 float pdf_emitter(const World& world, std::uint32_t index, const Vec3& from, const Vec3& direction, float distance) {
@@ -99,6 +132,10 @@ float balance_of_hit(const World& world, const Hit& hit, const Vec3& from, const
   const std::uint32_t index = world.emitters.find(hit.instance, hit.triangle);
   if (index == kNone) return 1;
   return pdf / (pdf + pdf_emitter(world, index, from, direction, hit.distance));
+}
+
+float balance_of_sky(const World& world, const Vec3& direction, float pdf) {
+  return pdf / (pdf + sky_probability(world) * world.environment.pdf(direction));
 }
 
 }  // namespace radfarm

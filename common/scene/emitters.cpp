@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace radfarm {
 namespace {
@@ -28,8 +29,9 @@ double luminous_flux(const EmissiveTriangle& t) {
   return std::numbers::pi * t.area * luminance(t.mean_radiance) * (t.both_sides ? 2 : 1);
 }
 
-double luminous_flux(const PunctualLight& light, double radius) {
+double luminous_flux(const PunctualEmitter& light, double radius) {
   const double intensity = luminance(light.intensity);
+  if (light.table != nullptr) return intensity * zonal_lumens(*light.table);
   if (light.kind == PunctualLight::Kind::kDirectional) return std::numbers::pi * radius * radius * intensity;
   if (light.kind == PunctualLight::Kind::kPoint) return 4 * std::numbers::pi * intensity;
   // Full inside the inner cone; between the cones t^2 averages to a third over the cosine.
@@ -54,7 +56,7 @@ void collect_triangles(const Surfaces& surfaces, std::uint32_t instance, Emitter
     emitter.normal = to_float(normalize(normal));
     emitter.both_sides = material.emits_from_both_sides;
     emitter.mean_radiance =
-        material.emission_texture == kNone ? material.emission : mean_radiance(surfaces, instance, t);
+        material.emission_texture.texture == kNone ? material.emission : mean_radiance(surfaces, instance, t);
     ++emitters.declared_triangles;
     const bool gives_light = emitter.area > 0 && luminance(emitter.mean_radiance) > 0;
     emitters.slot.push_back(gives_light ? static_cast<std::uint32_t>(emitters.triangles.size()) : kNone);
@@ -69,7 +71,8 @@ std::uint32_t Emitters::find(std::uint32_t instance, std::uint32_t triangle) con
   return first == kNone ? kNone : slot[first + triangle];
 }
 
-Spectrum intensity(const PunctualLight& light, const Vec3& way) {
+Spectrum intensity(const PunctualEmitter& light, const Vec3& way) {
+  if (light.table != nullptr) return light.intensity * candela(*light.table, way, light);
   if (light.kind != PunctualLight::Kind::kSpot) return light.intensity;
   // KHR_lights_punctual: linear in the cosine between the cones, squared.
   const float width = std::max(0.001F, light.cos_inner - light.cos_outer);
@@ -77,15 +80,27 @@ Spectrum intensity(const PunctualLight& light, const Vec3& way) {
   return light.intensity * (t * t);
 }
 
-Emitters find_emitters(const Surfaces& surfaces, float radius) {
+Emitters find_emitters(const Surfaces& surfaces, const EnvironmentLight& environment, float radius) {
   Emitters emitters;
   for (std::uint32_t i = 0; i < surfaces.scene().instances.size(); ++i) collect_triangles(surfaces, i, emitters);
   for (const PunctualLight& light : surfaces.scene().lights) {
-    if (luminance(light.intensity) > 0) emitters.punctual.push_back(light);
+    if (!(luminance(light.intensity) > 0)) continue;
+    PunctualEmitter emitter{light, nullptr, {}};
+    if (light.photometry != kNone && light.kind != PunctualLight::Kind::kDirectional) {
+      emitter.table = &surfaces.scene().photometries[light.photometry];
+      if (!(zonal_lumens(*emitter.table) > 0)) continue;
+      emitter.sampler = PhotometrySampler(*emitter.table);
+    }
+    emitters.punctual.push_back(std::move(emitter));
   }
   std::vector<double> flux;
   for (const EmissiveTriangle& t : emitters.triangles) flux.push_back(luminous_flux(t));
-  for (const PunctualLight& light : emitters.punctual) flux.push_back(luminous_flux(light, radius));
+  for (const PunctualEmitter& light : emitters.punctual) flux.push_back(luminous_flux(light, radius));
+  emitters.has_environment = !environment.is_empty();
+  if (emitters.has_environment) {
+    const double across = std::numbers::pi * static_cast<double>(radius) * static_cast<double>(radius);
+    flux.push_back(across * static_cast<double>(luminance(environment.total())));
+  }
   for (const double f : flux) emitters.total_flux += f;
   // A spot light whose cone is a line has intensity but no flux.
   const auto share = [&](double f) { return emitters.total_flux > 0 ? 0.9 * f / emitters.total_flux : 0; };
@@ -95,7 +110,7 @@ Emitters find_emitters(const Surfaces& surfaces, float radius) {
   return emitters;
 }
 
-PunctualArrival arrive(const PunctualLight& light, const Vec3& point, float scene_radius) {
+PunctualArrival arrive(const PunctualEmitter& light, const Vec3& point, float scene_radius) {
   PunctualArrival arrival;
   if (light.kind == PunctualLight::Kind::kDirectional) {
     arrival.direction = -light.direction;

@@ -16,8 +16,8 @@ Result<DraftScene> read_gltf(GltfSource source) {
   RADFARM_TRY(GltfModel model, parse_gltf(std::move(source)));
   DraftScene draft;
   pose_at_start(model, draft.scene);
-  RADFARM_TRY(const std::vector<GltfUvSlots> uv_slots, read_gltf_materials(model, draft.scene));
-  RADFARM_TRY(const auto mesh_parts, read_gltf_meshes(model, uv_slots, draft.scene));
+  RADFARM_TRY(const std::vector<GltfUvSets> uv_sets, read_gltf_materials(model, draft.scene));
+  RADFARM_TRY(const auto mesh_parts, read_gltf_meshes(model, uv_sets, draft.scene));
   RADFARM_TRY_STATUS(read_gltf_nodes(model, mesh_parts, draft));
   draft.positions.resize(draft.scene.meshes.size());
   return draft;

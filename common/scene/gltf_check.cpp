@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "scene/gltf_draco.h"
+#include "scene/gltf_meshopt.h"
 #include "scene/limits.h"
 
 namespace radfarm {
@@ -11,15 +13,15 @@ namespace {
 
 constexpr std::size_t kLargestOffset = limits::kSceneFileBytes;
 
-/// Required extensions that load: those we follow, and those whose absence only changes a lobe that is folded into
-/// diffuse anyway (a note says so).
-constexpr std::array<std::string_view, 16> kSupported = {
+/// Required extensions that load: those we follow, and lobes that we leave out with a note.
+constexpr std::array<std::string_view, 20> kSupported = {
     "KHR_lights_punctual",      "KHR_materials_emissive_strength", "KHR_materials_specular",
     "KHR_materials_unlit",      "KHR_texture_transform",           "KHR_mesh_quantization",
     "KHR_materials_ior",        "KHR_materials_transmission",      "KHR_materials_volume",
     "KHR_materials_clearcoat",  "KHR_materials_sheen",             "KHR_materials_iridescence",
     "KHR_materials_anisotropy", "KHR_materials_dispersion",        "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_variants"};
+    "KHR_materials_variants",   "KHR_materials_diffuse_transmission", "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",  "EXT_mesh_gpu_instancing"};
 
 void check_version(JsonChecker& checker, const JsonPlace& root) {
   checker.require(root, "asset");
@@ -65,9 +67,11 @@ void check_buffers(JsonChecker& checker, const JsonPlace& root) {
     if (stride % 4 != 0) checker.fault(view.pointer + "/byteStride", "must be a multiple of 4");
     const auto buffer = view.value->at("buffer").get<std::size_t>();
     const auto available = root.at("buffers").at(buffer).value->at("byteLength").get<std::size_t>();
-    if (offset + length <= available) return;
-    checker.fault(view.pointer, "ends at byte " + std::to_string(offset + length) + " of buffer " +
-                                    std::to_string(buffer) + ", which has " + std::to_string(available));
+    if (offset + length > available) {
+      checker.fault(view.pointer, "ends at byte " + std::to_string(offset + length) + " of buffer " +
+                                      std::to_string(buffer) + ", which has " + std::to_string(available));
+    }
+    check_gltf_meshopt(checker, root, view);
   });
 }
 
@@ -158,12 +162,13 @@ void check_primitive(JsonChecker& checker, const JsonPlace& root, const JsonPlac
   checker.each_object(primitive, "targets", [&](const JsonPlace& target) {
     check_attributes(checker, root, target, vertices);
   });
+  check_gltf_draco(checker, root, primitive);
   if (!checker.ok() || !primitive.has("indices")) return;
   const nlohmann::json& indices = *root.at("accessors").at(primitive.value->at("indices").get<std::size_t>()).value;
   const auto type = indices.at("componentType").get<std::size_t>();
   if (indices.at("type") != "SCALAR" || (type != 5121 && type != 5123 && type != 5125)) {
     checker.fault(primitive.pointer + "/indices", "must name a SCALAR accessor of an unsigned integer type");
-  } else if (!indices.contains("bufferView")) {
+  } else if (!indices.contains("bufferView") && !has_draco(*primitive.value)) {
     checker.fault(primitive.pointer + "/indices", "names an accessor without bufferView");
   }
 }

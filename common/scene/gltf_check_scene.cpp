@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "scene/gltf_check.h"
+#include "scene/gltf_instancing.h"
 #include "scene/limits.h"
 
 namespace radfarm {
@@ -25,23 +26,55 @@ void check_texture(JsonChecker& checker, const JsonPlace& root, const JsonPlace&
   checker.integer(transform, "texCoord", 0, 0, 15);
 }
 
+/// The extensions that add lobes to a material.
+void check_layers(JsonChecker& checker, const JsonPlace& root, const JsonPlace& material) {
+  const JsonPlace specular = material.extension("KHR_materials_specular");
+  checker.number(specular, "specularFactor", kUnit);
+  checker.numbers(specular, "specularColorFactor", 3, {0, 1e6});
+  const JsonPlace transmission = material.extension("KHR_materials_transmission");
+  checker.number(transmission, "transmissionFactor", kUnit);
+  checker.number(material.extension("KHR_materials_ior"), "ior", {0, 1e6});
+  const JsonPlace volume = material.extension("KHR_materials_volume");
+  checker.number(volume, "thicknessFactor", {0, limits::kCoordinate});
+  checker.numbers(volume, "attenuationColor", 3, kUnit);
+  checker.number(volume, "attenuationDistance", {0, 1e300});
+  const JsonPlace clearcoat = material.extension("KHR_materials_clearcoat");
+  for (const char* key : {"clearcoatFactor", "clearcoatRoughnessFactor"}) checker.number(clearcoat, key, kUnit);
+  const JsonPlace sheen = material.extension("KHR_materials_sheen");
+  checker.numbers(sheen, "sheenColorFactor", 3, kUnit);
+  checker.number(sheen, "sheenRoughnessFactor", kUnit);
+  const JsonPlace anisotropy = material.extension("KHR_materials_anisotropy");
+  checker.number(anisotropy, "anisotropyStrength", kUnit);
+  checker.number(anisotropy, "anisotropyRotation", {-1e6, 1e6});
+  for (const char* key : {"specularTexture", "specularColorTexture"}) check_texture(checker, root, specular, key);
+  check_texture(checker, root, transmission, "transmissionTexture");
+  check_texture(checker, root, clearcoat, "clearcoatTexture");
+  check_texture(checker, root, clearcoat, "clearcoatRoughnessTexture");
+  for (const char* key : {"sheenColorTexture", "sheenRoughnessTexture"}) check_texture(checker, root, sheen, key);
+}
+
 void check_material(JsonChecker& checker, const JsonPlace& root, const JsonPlace& material) {
   if (material.has("pbrMetallicRoughness")) {
     const JsonPlace pbr = material.at("pbrMetallicRoughness");
     checker.numbers(pbr, "baseColorFactor", 4, kUnit);
     checker.number(pbr, "metallicFactor", kUnit);
+    checker.number(pbr, "roughnessFactor", kUnit);
     check_texture(checker, root, pbr, "baseColorTexture");
+    check_texture(checker, root, pbr, "metallicRoughnessTexture");
   }
+  check_texture(checker, root, material, "normalTexture");
+  if (material.has("normalTexture")) checker.number(material.at("normalTexture"), "scale", {-1e6, 1e6});
   checker.numbers(material, "emissiveFactor", 3, kLight);
   check_texture(checker, root, material, "emissiveTexture");
   checker.number(material, "alphaCutoff", {0, 1e6});
   checker.string(material, "alphaMode");
   checker.string(material, "name");
   checker.number(material.extension("KHR_materials_emissive_strength"), "emissiveStrength", kLight);
-  checker.number(material.extension("KHR_materials_specular"), "specularFactor", kUnit);
+  check_layers(checker, root, material);
   const JsonPlace glossiness = material.extension("KHR_materials_pbrSpecularGlossiness");
   checker.numbers(glossiness, "diffuseFactor", 4, kUnit);
   checker.numbers(glossiness, "specularFactor", 3, kUnit);
+  checker.number(glossiness, "glossinessFactor", kUnit);
   check_texture(checker, root, glossiness, "diffuseTexture");
 }
 
@@ -116,6 +149,7 @@ void check_node(JsonChecker& checker, const JsonPlace& root, std::size_t lights,
   checker.numbers(node, "translation", 3, kPlace);
   checker.numbers(node, "rotation", 4, kPlace);
   checker.numbers(node, "scale", 3, kPlace);
+  check_gltf_instancing(checker, root, node);
   checker.index(node.extension("KHR_lights_punctual"), "light", "light", lights);
   checker.string(node, "name");
   if (!checker.ok() || !node.has("matrix")) return;

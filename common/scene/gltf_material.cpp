@@ -1,228 +1,178 @@
 #include "scene/gltf_material.h"
 
-#include <cmath>
-#include <map>
+#include <algorithm>
 #include <string>
-#include <tuple>
+#include <string_view>
 
 #include "scene/draft_scene.h"
-#include "scene/image_file.h"
-#include "scene/limits.h"
+#include "scene/gltf_values.h"
+#include "scene/specular_layer.h"
+#include "scene/texture_uses.h"
 
 namespace radfarm {
 namespace {
 
-using Extensions = tinygltf::ExtensionMap;
+using nlohmann::json;
 
-const tinygltf::Value* extension(const Extensions& extensions, const std::string& name) {
-  const auto found = extensions.find(name);
-  return found == extensions.end() ? nullptr : &found->second;
+constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* kUnlit = "KHR_materials_unlit";
+
+Material::Alpha alpha_mode(const json& source) {
+  const std::string mode = gltf_text(source, "alphaMode");
+  if (mode == "MASK") return Material::Alpha::kMask;
+  return mode == "BLEND" ? Material::Alpha::kBlend : Material::Alpha::kOpaque;
 }
 
-double number(const tinygltf::Value* object, const std::string& key, double otherwise) {
-  if (object == nullptr || !object->Has(key)) return otherwise;
-  return object->Get(key).GetNumberAsDouble();
-}
-
-double element(const tinygltf::Value* object, const std::string& key, int index, double otherwise) {
-  if (object == nullptr || !object->Has(key)) return otherwise;
-  return object->Get(key).Get(index).GetNumberAsDouble();
-}
-
-Spectrum spectrum(const std::vector<double>& values, double scale) {
-  if (values.size() < 3) return Spectrum(static_cast<float>(scale));
-  return Spectrum(SpectrumD(values[0], values[1], values[2]) * scale);
-}
-
-Texture::Wrap wrap_mode(int wrap) {
-  if (wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Texture::Wrap::kClamp;
-  return wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Texture::Wrap::kMirror : Texture::Wrap::kRepeat;
-}
-
-/// Decodes each (image, wrap modes) once.
-class TextureReader {
- public:
-  TextureReader(const GltfModel& model, Scene& scene) : model_(model), scene_(scene) {}
-
-  /// The scene's texture for the glTF texture, or kNone where it has no image that we can read (with a note).
-  Result<std::uint32_t> read(int texture_index) {
-    const tinygltf::Texture& texture = model_.document.textures.at(static_cast<std::size_t>(texture_index));
-    const std::string pointer = "/textures/" + std::to_string(texture_index);
-    if (texture.source < 0) return fail(Code::kInvalidArgument, pointer + ": has no PNG or JPEG source");
-    auto wrap_u = Texture::Wrap::kRepeat;
-    auto wrap_v = Texture::Wrap::kRepeat;
-    if (texture.sampler >= 0) {
-      const tinygltf::Sampler& sampler = model_.document.samplers.at(static_cast<std::size_t>(texture.sampler));
-      wrap_u = wrap_mode(sampler.wrapS);
-      wrap_v = wrap_mode(sampler.wrapT);
-    }
-    const auto [known, is_new] = textures_.try_emplace({texture.source, wrap_u, wrap_v}, 0);
-    if (is_new) {
-      RADFARM_TRY(Texture decoded, decode(static_cast<std::size_t>(texture.source)));
-      decoded.wrap_u = wrap_u;
-      decoded.wrap_v = wrap_v;
-      known->second = static_cast<std::uint32_t>(scene_.textures.size());
-      scene_.textures.push_back(std::move(decoded));
-    }
-    return known->second;
-  }
-
- private:
-  Result<Texture> decode(std::size_t image) {
-    const std::string pointer = "/images/" + std::to_string(image);
-    const Result<std::string> bytes = image_bytes(model_, image);
-    if (!bytes) return annotate(bytes.error(), pointer);
-    Result<Texture> texture = decode_image(*bytes);
-    if (!texture) return annotate(texture.error(), pointer);
-    texels_ += texture->texels.size();
-    if (texels_ > limits::kTextureTexels) {
-      return fail(Code::kResourceExhausted,
-                  pointer + ": textures have more than " + std::to_string(limits::kTextureTexels) + " pixels together");
-    }
-    return texture;
-  }
-
-  const GltfModel& model_;
-  Scene& scene_;
-  std::map<std::tuple<int, Texture::Wrap, Texture::Wrap>, std::uint32_t> textures_;
-  std::size_t texels_ = 0;
-};
-
-GltfCoordinates coordinates(int set, const tinygltf::Value* transform) {
-  GltfCoordinates result;
-  result.set = static_cast<int>(number(transform, "texCoord", set));
-  for (int i = 0; i < 2; ++i) {
-    result.offset[i] = static_cast<float>(element(transform, "offset", i, 0));
-    result.scale[i] = static_cast<float>(element(transform, "scale", i, 1));
-  }
-  result.rotation = static_cast<float>(number(transform, "rotation", 0));
-  return result;
-}
-
-/// Base colour from KHR_materials_pbrSpecularGlossiness, where a file has that instead.
-struct BaseColor {
-  std::array<double, 4> factor = {1, 1, 1, 1};
-  int texture = -1;
-  GltfCoordinates uv;
-};
-
-BaseColor base_color(const tinygltf::Material& source) {
-  BaseColor base;
-  const auto* glossiness = extension(source.extensions, "KHR_materials_pbrSpecularGlossiness");
-  if (glossiness != nullptr) {
-    for (int i = 0; i < 4; ++i) base.factor[static_cast<std::size_t>(i)] = element(glossiness, "diffuseFactor", i, 1);
-    if (!glossiness->Has("diffuseTexture")) return base;
-    const tinygltf::Value& info = glossiness->Get("diffuseTexture");
-    base.texture = info.Get("index").GetNumberAsInt();
-    const tinygltf::Value& inner = info.Get("extensions");
-    const bool moved = inner.IsObject() && inner.Has("KHR_texture_transform");
-    base.uv = coordinates(static_cast<int>(number(&info, "texCoord", 0)),
-                          moved ? &inner.Get("KHR_texture_transform") : nullptr);
-    return base;
-  }
-  const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-  for (std::size_t i = 0; i < pbr.baseColorFactor.size() && i < 4; ++i) base.factor[i] = pbr.baseColorFactor[i];
-  base.texture = pbr.baseColorTexture.index;
-  base.uv = coordinates(pbr.baseColorTexture.texCoord,
-                        extension(pbr.baseColorTexture.extensions, "KHR_texture_transform"));
-  return base;
-}
-
-/// True when the file describes exactly a Lambertian surface.
-bool is_lambertian(const tinygltf::Material& source) {
-  if (extension(source.extensions, "KHR_materials_transmission") != nullptr) return false;
-  if (extension(source.extensions, "KHR_materials_clearcoat") != nullptr) return false;
-  if (const auto* glossiness = extension(source.extensions, "KHR_materials_pbrSpecularGlossiness")) {
-    for (int i = 0; i < 3; ++i) {
-      if (element(glossiness, "specularFactor", i, 1) != 0) return false;
-    }
-    return true;
-  }
-  const auto* specular = extension(source.extensions, "KHR_materials_specular");
-  return source.pbrMetallicRoughness.metallicFactor == 0 && number(specular, "specularFactor", 1) == 0;
-}
-
-Material::Alpha alpha_mode(const tinygltf::Material& source) {
-  if (source.alphaMode == "MASK") return Material::Alpha::kMask;
-  return source.alphaMode == "BLEND" ? Material::Alpha::kBlend : Material::Alpha::kOpaque;
-}
-
-void note_extensions(const tinygltf::Material& source, Scene& scene) {
-  static const std::map<std::string, std::string> kNotes = {
-      {"KHR_materials_unlit", "is simulated as a Lambertian surface of its base colour"},
-      {"KHR_materials_transmission", "is ignored: the surface is an opaque Lambertian one"},
-      {"KHR_materials_volume", "is ignored: nothing absorbs light between surfaces"},
-      {"KHR_materials_clearcoat", "is ignored: there is no coating"},
-      {"KHR_materials_sheen", "is ignored"},
-      {"KHR_materials_iridescence", "is ignored"},
-      {"KHR_materials_anisotropy", "is ignored"},
-      {"KHR_materials_dispersion", "is ignored"},
-      {"KHR_materials_pbrSpecularGlossiness", "is folded into diffuse: reflectance is its diffuse colour"},
-  };
-  for (const auto& [name, value] : source.extensions) {
-    const auto known = kNotes.find(name);
-    if (known != kNotes.end()) add_note(scene, "Material extension " + name + " " + known->second + ".");
-  }
-}
-
-Result<GltfUvSlots> read_material(const tinygltf::Material& source, TextureReader& textures, Scene& scene) {
-  Material material;
-  GltfUvSlots slots;
-  material.name = source.name;
-  const BaseColor base = base_color(source);
-  material.reflectance = Spectrum(SpectrumD(base.factor[0], base.factor[1], base.factor[2]));
+/// Colour and coverage; `object` is pbrMetallicRoughness or the specular-glossiness extension.
+Status read_base(const json& source, const json& object, const char* factor, const char* texture,
+                 GltfTextureReader& textures, Material& material) {
+  material.base_color = Spectrum(gltf_color(object, factor, 1));
   material.alpha_mode = alpha_mode(source);
-  material.alpha = material.alpha_mode == Material::Alpha::kOpaque ? 1.0F : static_cast<float>(base.factor[3]);
-  material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
-  material.folds_gloss_into_diffuse = !is_lambertian(source);
-  material.emits_from_both_sides = source.doubleSided;
-  const auto* strength = extension(source.extensions, "KHR_materials_emissive_strength");
-  const bool glows = source.emissiveFactor.size() == 3;
-  material.emission = glows ? spectrum(source.emissiveFactor, number(strength, "emissiveStrength", 1)) : Spectrum();
-  material.is_switched_off = glows && is_black(material.emission) && !is_black(spectrum(source.emissiveFactor, 1));
-  if (base.texture >= 0) {
-    RADFARM_TRY(material.reflectance_texture, textures.read(base.texture));
-    slots[0] = base.uv;
+  const bool is_opaque = material.alpha_mode == Material::Alpha::kOpaque;
+  material.alpha = is_opaque ? 1.0F : static_cast<float>(gltf_element(object, factor, 3, 1));
+  material.alpha_cutoff = static_cast<float>(gltf_number(source, "alphaCutoff", 0.5));
+  if (is_opaque && is_black(material.base_color)) return {};
+  RADFARM_TRY(material.base_texture, textures.use(object, texture, true));
+  return {};
+}
+
+Status read_metallic_roughness(const json& source, GltfTextureReader& textures, Material& material) {
+  const json& pbr = gltf_object(source, "pbrMetallicRoughness");
+  RADFARM_TRY_STATUS(read_base(source, pbr, "baseColorFactor", "baseColorTexture", textures, material));
+  material.metallic = static_cast<float>(gltf_number(pbr, "metallicFactor", 1));
+  material.roughness = static_cast<float>(gltf_number(pbr, "roughnessFactor", 1));
+  return {};
+}
+
+/// KHR_materials_pbrSpecularGlossiness as a dielectric whose layer reflects specularFactor at normal incidence.
+Status read_glossiness(const json& source, GltfTextureReader& textures, Scene& scene, Material& material) {
+  const json& glossiness = gltf_extension(source, kGlossiness);
+  RADFARM_TRY_STATUS(read_base(source, glossiness, "diffuseFactor", "diffuseTexture", textures, material));
+  material.roughness = static_cast<float>(1 - gltf_number(glossiness, "glossinessFactor", 1));
+  set_specular_layer(gltf_color(glossiness, "specularFactor", 1), 1.5, material);
+  if (glossiness.contains("specularGlossinessTexture") && material.specular > 0) {
+    add_note(scene, std::string("Textures of specular colour and glossiness (") + kGlossiness +
+                        ") are ignored: their factors hold everywhere.");
   }
-  // A texture on a factor of zero is never looked up.
-  if (source.emissiveTexture.index >= 0 && !is_black(material.emission)) {
-    RADFARM_TRY(material.emission_texture, textures.read(source.emissiveTexture.index));
-    const GltfCoordinates uv = coordinates(source.emissiveTexture.texCoord,
-                                           extension(source.emissiveTexture.extensions, "KHR_texture_transform"));
-    material.emission_uv = slots[0].set < 0 || slots[0] == uv ? 0 : 1;
-    slots[material.emission_uv] = uv;
+  return {};
+}
+
+Status read_emission(const json& source, GltfTextureReader& textures, Material& material) {
+  const SpectrumD factor = gltf_color(source, "emissiveFactor", 0);
+  const json& extension = gltf_extension(source, "KHR_materials_emissive_strength");
+  material.emission = Spectrum(factor * gltf_number(extension, "emissiveStrength", 1));
+  material.is_switched_off = is_black(material.emission) && !is_black(Spectrum(factor));
+  if (is_black(material.emission)) return {};
+  RADFARM_TRY(material.emission_texture, textures.use(source, "emissiveTexture", true));
+  return {};
+}
+
+Status read_normals(const json& source, GltfTextureReader& textures, Material& material) {
+  material.normal_scale = static_cast<float>(gltf_number(gltf_object(source, "normalTexture"), "scale", 1));
+  if (material.normal_scale == 0) return {};
+  RADFARM_TRY(material.normal_texture, textures.use(source, "normalTexture", false));
+  return {};
+}
+
+/// KHR_materials_unlit: what the viewer shall see is what the surface emits, so nothing else may light it.
+void make_unlit(Material& material, Scene& scene) {
+  material.emission = material.base_color;
+  material.emission_texture = material.base_texture;
+  material.base_color = Spectrum(0);
+  if (material.alpha_mode == Material::Alpha::kOpaque) material.base_texture = {};
+  material.emits_from_both_sides = true;
+  add_note(scene, std::string("Surfaces with ") + kUnlit +
+                      " emit their base colour, in cd/m^2, from both sides and reflect nothing.");
+}
+
+void note_extensions(const json& source, Scene& scene) {
+  constexpr std::array<std::string_view, 10> kRead = {
+      "KHR_materials_emissive_strength", "KHR_materials_specular",  "KHR_materials_ior",   "KHR_materials_transmission",
+      "KHR_materials_volume",            "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_anisotropy",
+      kUnlit,                            kGlossiness};
+  for (const auto& [name, value] : gltf_object(source, "extensions").items()) {
+    if (!name.starts_with("KHR_materials_") || std::find(kRead.begin(), kRead.end(), name) != kRead.end()) continue;
+    add_note(scene, "Material extension " + name.substr(0, 60) + " is ignored.");
   }
+}
+
+Result<Material> read_material(const json& source, GltfTextureReader& textures, Scene& scene) {
+  Material material;
+  material.name = gltf_text(source, "name");
   note_extensions(source, scene);
-  scene.materials.push_back(std::move(material));
-  return slots;
+  if (has_gltf_extension(source, kUnlit)) {
+    RADFARM_TRY_STATUS(read_metallic_roughness(source, textures, material));
+    material.metallic = 0;
+    material.roughness = 1;
+    make_unlit(material, scene);
+    return material;
+  }
+  const auto doubled = source.find("doubleSided");
+  material.emits_from_both_sides = doubled != source.end() && doubled->is_boolean() && doubled->get<bool>();
+  RADFARM_TRY_STATUS(read_emission(source, textures, material));
+  RADFARM_TRY_STATUS(read_normals(source, textures, material));
+  if (has_gltf_extension(source, kGlossiness)) {
+    RADFARM_TRY_STATUS(read_glossiness(source, textures, scene, material));
+    return material;
+  }
+  RADFARM_TRY_STATUS(read_metallic_roughness(source, textures, material));
+  RADFARM_TRY_STATUS(read_gltf_layers(source, textures, scene, material));
+  // Roughness is that of the metal, the layer and the glass; without them neither channel is looked up.
+  const bool is_glossy = material.metallic > 0 || material.specular > 0 || material.transmission > 0;
+  if (is_glossy && (material.metallic > 0 || material.roughness > 0)) {
+    const json& pbr = gltf_object(source, "pbrMetallicRoughness");
+    RADFARM_TRY(material.metallic_roughness_texture, textures.use(pbr, "metallicRoughnessTexture", false));
+  }
+  return material;
+}
+
+/// Replaces the file's set numbers in the material's texture uses by the two that a Mesh has.
+Result<GltfUvSets> assign_uv_sets(Material& material) {
+  GltfUvSets sets = {kNone, kNone};
+  for (const TextureUse* use : texture_uses(material)) {
+    if (use->is_used() && use->uv_set < 2) sets[use->uv_set] = use->uv_set;
+  }
+  for (TextureUse* use : texture_uses(material)) {
+    if (!use->is_used()) continue;
+    auto place = std::find(sets.begin(), sets.end(), use->uv_set);
+    if (place == sets.end() && sets[1] == kNone) place = sets.begin() + 1;
+    if (place == sets.end() && sets[0] == kNone) place = sets.begin();
+    if (place == sets.end()) {
+      return fail(Code::kUnimplemented, "its textures use TEXCOORD_" + std::to_string(use->uv_set) +
+                                            " besides two other sets of coordinates; at most two are supported");
+    }
+    *place = use->uv_set;
+    use->uv_set = static_cast<std::uint32_t>(place - sets.begin());
+  }
+  return sets;
+}
+
+Material default_material() {
+  Material material;
+  material.name = "default";
+  material.base_color = Spectrum(1);
+  material.metallic = 1;
+  material.specular = 1;
+  return material;
 }
 
 }  // namespace
 
-Vec2 GltfCoordinates::apply(float u, float v) const {
-  const float x = u * scale[0];
-  const float y = v * scale[1];
-  // v points down, so a counter-clockwise turn as seen takes (1, 0) to (cos, -sin).
-  const float c = std::cos(rotation);
-  const float s = std::sin(rotation);
-  return {c * x + s * y + offset[0], c * y - s * x + offset[1]};
-}
-
-Result<std::vector<GltfUvSlots>> read_gltf_materials(const GltfModel& model, Scene& scene) {
-  TextureReader textures(model, scene);
-  std::vector<GltfUvSlots> slots;
-  for (const tinygltf::Material& source : model.document.materials) {
-    auto read = read_material(source, textures, scene);
-    if (!read) return annotate(read.error(), "/materials/" + std::to_string(slots.size()));
-    slots.push_back(*read);
+Result<std::vector<GltfUvSets>> read_gltf_materials(const GltfModel& model, Scene& scene) {
+  GltfTextureReader textures(model, scene);
+  std::vector<GltfUvSets> uv_sets;
+  for (const json& source : model.materials) {
+    const std::string pointer = "/materials/" + std::to_string(uv_sets.size());
+    Result<Material> material = read_material(source, textures, scene);
+    if (!material) return annotate(material.error(), pointer);
+    const auto sets = assign_uv_sets(*material);
+    if (!sets) return annotate(sets.error(), pointer);
+    uv_sets.push_back(*sets);
+    scene.materials.push_back(std::move(*material));
   }
-  Material otherwise;
-  otherwise.name = "default";
-  otherwise.reflectance = Spectrum(1);
-  otherwise.folds_gloss_into_diffuse = true;
-  scene.materials.push_back(otherwise);
-  slots.emplace_back();
-  return slots;
+  scene.materials.push_back(default_material());
+  uv_sets.push_back({kNone, kNone});
+  return uv_sets;
 }
 
 }  // namespace radfarm

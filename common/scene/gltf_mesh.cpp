@@ -1,6 +1,7 @@
 #include "scene/gltf_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -80,24 +81,43 @@ Status add_morphs(const GltfModel& model, const tinygltf::Primitive& primitive, 
   return {};
 }
 
-Status read_uvs(const GltfModel& model, const tinygltf::Primitive& primitive, const GltfUvSlots& slots, Scene& scene,
+/// The coordinates that the material's textures use, as stored; also those that only give anisotropy its direction.
+Status read_uvs(const GltfModel& model, const tinygltf::Primitive& primitive, GltfUvSets sets, Scene& scene,
                 Mesh& mesh) {
-  for (std::size_t slot = 0; slot < slots.size(); ++slot) {
-    const GltfCoordinates& coordinates = slots[slot];
-    if (coordinates.set < 0) continue;
-    const std::string name = "TEXCOORD_" + std::to_string(coordinates.set);
+  const bool turns_gloss = scene.materials[mesh.material].anisotropy > 0;
+  if (sets[0] == kNone && turns_gloss && attribute(primitive, "TEXCOORD_0") >= 0) sets[0] = 0;
+  for (std::size_t slot = 0; slot < sets.size(); ++slot) {
+    if (sets[slot] == kNone) continue;
+    const std::string name = "TEXCOORD_" + std::to_string(sets[slot]);
     const int accessor = attribute(primitive, name);
-    std::vector<float> values(mesh.positions.size() * 2, 0.0F);
-    if (accessor >= 0) {
-      RADFARM_TRY(values, read_floats(model, accessor, 2));
-    } else {
+    mesh.uv[slot].assign(mesh.positions.size(), Vec2(0, 0));
+    if (accessor < 0) {
       add_note(scene, "Textured meshes without " + name + " show the texture's first corner only.");
+      continue;
     }
-    mesh.uv[slot].resize(mesh.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-      mesh.uv[slot][i] = coordinates.apply(values[2 * i], values[2 * i + 1]);
-    }
+    RADFARM_TRY(const std::vector<float> values, read_floats(model, accessor, 2));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.uv[slot][i] = {values[2 * i], values[2 * i + 1]};
   }
+  return {};
+}
+
+/// Tangents where the material needs them. Without normals they mean nothing, says glTF; where one is none, all go.
+Status read_tangents(const GltfModel& model, const tinygltf::Primitive& primitive, const Material& material,
+                     Mesh& mesh) {
+  const int accessor = attribute(primitive, "TANGENT");
+  const bool needed = material.normal_texture.is_used() || material.anisotropy > 0;
+  if (accessor < 0 || !needed || mesh.normals.empty()) return {};
+  RADFARM_TRY(const std::vector<float> values, read_floats(model, accessor, 4));
+  std::vector<std::array<float, 4>> tangents;
+  tangents.reserve(values.size() / 4);
+  for (std::size_t i = 0; i + 3 < values.size(); i += 4) {
+    const Vec3d tangent(values[i], values[i + 1], values[i + 2]);
+    const float side = values[i + 3];
+    if (!(length(tangent) > 1e-6) || std::fabs(std::fabs(side) - 1) > 0.01F) return {};
+    const Vec3 unit = to_float(normalize(tangent));
+    tangents.push_back({unit.x, unit.y, unit.z, side > 0 ? 1.0F : -1.0F});
+  }
+  mesh.tangents = std::move(tangents);
   return {};
 }
 
@@ -125,10 +145,10 @@ bool has_triangles(const tinygltf::Primitive& primitive, Scene& scene) {
 }
 
 Result<Mesh> read_primitive(const GltfModel& model, const tinygltf::Mesh& source, const tinygltf::Primitive& primitive,
-                            std::span<const GltfUvSlots> uv_slots, Scene& scene) {
+                            std::span<const GltfUvSets> uv_sets, Scene& scene) {
   Mesh mesh;
   mesh.name = source.name;
-  mesh.material = primitive.material < 0 ? static_cast<std::uint32_t>(uv_slots.size() - 1)
+  mesh.material = primitive.material < 0 ? static_cast<std::uint32_t>(uv_sets.size() - 1)
                                          : static_cast<std::uint32_t>(primitive.material);
   RADFARM_TRY(std::vector<float> positions, read_floats(model, attribute(primitive, "POSITION"), 3));
   RADFARM_TRY_STATUS(add_morphs(model, primitive, source.weights, "POSITION", positions));
@@ -141,7 +161,8 @@ Result<Mesh> read_primitive(const GltfModel& model, const tinygltf::Mesh& source
     RADFARM_TRY_STATUS(add_morphs(model, primitive, source.weights, "NORMAL", values));
     mesh.normals = to_vectors(values);
   }
-  RADFARM_TRY_STATUS(read_uvs(model, primitive, uv_slots[mesh.material], scene, mesh));
+  RADFARM_TRY_STATUS(read_uvs(model, primitive, uv_sets[mesh.material], scene, mesh));
+  RADFARM_TRY_STATUS(read_tangents(model, primitive, scene.materials[mesh.material], mesh));
   RADFARM_TRY_STATUS(read_colors(model, primitive, scene, mesh));
   return mesh;
 }
@@ -149,7 +170,7 @@ Result<Mesh> read_primitive(const GltfModel& model, const tinygltf::Mesh& source
 }  // namespace
 
 Result<std::vector<std::vector<std::uint32_t>>> read_gltf_meshes(const GltfModel& model,
-                                                                 std::span<const GltfUvSlots> uv_slots, Scene& scene) {
+                                                                 std::span<const GltfUvSets> uv_sets, Scene& scene) {
   std::vector<std::vector<std::uint32_t>> parts;
   std::size_t triangles = 0;
   for (std::size_t m = 0; m < model.document.meshes.size(); ++m) {
@@ -160,7 +181,7 @@ Result<std::vector<std::vector<std::uint32_t>>> read_gltf_meshes(const GltfModel
       const std::string pointer = "/meshes/" + std::to_string(m) + "/primitives/" + std::to_string(p);
       if (!has_triangles(primitive, scene)) continue;
       if (!primitive.targets.empty()) add_note(scene, "Morph targets keep their default weights.");
-      auto mesh = read_primitive(model, source, primitive, uv_slots, scene);
+      auto mesh = read_primitive(model, source, primitive, uv_sets, scene);
       if (!mesh && mesh.error().message.starts_with("/accessors")) return tl::unexpected(mesh.error());
       if (!mesh) return fail(mesh.error().code, pointer + mesh.error().message);
       triangles += mesh->triangles.size();

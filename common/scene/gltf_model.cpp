@@ -4,13 +4,15 @@
 #include <exception>
 
 #include "scene/gltf_check.h"
+#include "scene/gltf_draco.h"
+#include "scene/gltf_meshopt.h"
 #include "scene/limits.h"
 #include "scene/reference.h"
 
 namespace radfarm {
 namespace {
 
-/// The bytes of one buffer, exactly as many as it declares.
+/// The bytes of one buffer, exactly as many as it declares; none of one that only stands for compressed views.
 Result<std::string> buffer_bytes(const GltfSource& source, const nlohmann::json& buffer, std::size_t index) {
   const auto declared = buffer.at("byteLength").get<std::size_t>();
   const std::string pointer = "/buffers/" + std::to_string(index);
@@ -19,6 +21,8 @@ Result<std::string> buffer_bytes(const GltfSource& source, const nlohmann::json&
     auto read = read_uri(source.folder, buffer.at("uri").get<std::string>(), limits::kSceneFileBytes);
     if (!read) return annotate(read.error(), pointer + "/uri");
     bytes = std::move(*read);
+  } else if (is_meshopt_fallback(buffer)) {
+    return bytes;
   } else if (index == 0 && source.is_binary) {
     bytes = source.binary;
   } else {
@@ -79,6 +83,9 @@ Result<GltfModel> parse_gltf(GltfSource source) {
       model.buffers.push_back(std::move(bytes));
     }
   }
+  RADFARM_TRY_STATUS(unpack_gltf_meshopt(source.json, model.buffers));
+  RADFARM_TRY_STATUS(unpack_gltf_draco(source.json, model.buffers));
+  model.materials = source.json.value("materials", nlohmann::json::array());
   RADFARM_TRY_STATUS(map_document(std::move(source.json), model.document));
   return model;
 }

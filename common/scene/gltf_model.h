@@ -18,12 +18,13 @@ struct GltfModel {
     int buffer_view = -1;   // or that, or neither: a fault only where a material uses the image
   };
   tinygltf::Model document;
+  nlohmann::json materials;  // as in the file: tinygltf knows only half of what they may say
   std::vector<std::string> buffers;
   std::vector<Image> images;
   std::filesystem::path folder;
 };
 
-/// Checks (gltf_check.h), parses, and reads the buffers.
+/// Checks (gltf_check.h), reads the buffers, unpacks compressed geometry, and parses.
 Result<GltfModel> parse_gltf(GltfSource source);
 
 /// The encoded bytes of an image. Requires: a model from parse_gltf and an image it has.

@@ -3,46 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
+#include "scene/gltf_instancing.h"
 #include "scene/limits.h"
 
 namespace radfarm {
 namespace {
 
-/// Row vectors: scale first, then rotation, then translation.
-Matrix4d matrix_of_trs(const tinygltf::Node& node) {
-  const auto get = [](const std::vector<double>& values, std::size_t i, double otherwise) {
-    return i < values.size() ? values[i] : otherwise;
-  };
-  double x = get(node.rotation, 0, 0);
-  double y = get(node.rotation, 1, 0);
-  double z = get(node.rotation, 2, 0);
-  double w = get(node.rotation, 3, 1);
-  const double norm = std::sqrt(x * x + y * y + z * z + w * w);
-  if (norm > 0) {
-    x /= norm, y /= norm, z /= norm, w /= norm;
-  } else {
-    w = 1;
-  }
-  const double rotation[3][3] = {
-      {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
-      {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
-      {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
-  };
-  Matrix4d matrix;
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) {
-      matrix[static_cast<int>(row)][column] = get(node.scale, row, 1) * rotation[row][column];
-    }
-    matrix[3][row] = get(node.translation, row, 0);
-  }
-  return matrix;
-}
-
 /// glTF stores columns of a matrix for column vectors, which are the rows of ours for row vectors.
 Matrix4d local_matrix(const tinygltf::Node& node) {
-  if (node.matrix.size() != 16) return matrix_of_trs(node);
   Matrix4d matrix;
+  if (node.matrix.size() != 16) {
+    const auto get = [](const std::vector<double>& values, std::size_t i, double otherwise) {
+      return i < values.size() ? values[i] : otherwise;
+    };
+    const auto& [t, r, s] = std::tie(node.translation, node.rotation, node.scale);
+    return matrix_of_trs({get(t, 0, 0), get(t, 1, 0), get(t, 2, 0)},
+                         {get(r, 0, 0), get(r, 1, 0), get(r, 2, 0), get(r, 3, 1)},
+                         {get(s, 0, 1), get(s, 1, 1), get(s, 2, 1)});
+  }
   for (std::size_t i = 0; i < 16; ++i) matrix[static_cast<int>(i / 4)][i % 4] = node.matrix[i];
   return matrix;
 }
@@ -73,10 +53,20 @@ void add_camera(const tinygltf::Camera& source, const tinygltf::Node& node, cons
   draft.camera_positions.push_back(row(world, 3));
 }
 
-void add_light(const tinygltf::Light& source, const Matrix4d& world, DraftScene& draft) {
+/// Where the light's zero azimuth points: its node's +x, made perpendicular to the direction.
+Vec3 right_of(const Matrix4d& world, const Vec3& direction) {
+  const Vec3d axis = to_double(direction);
+  const Vec3d x = normalize(row(world, 0));
+  const Vec3d right = x - axis * dot(x, axis);
+  return length(right) > 1e-6 ? to_float(normalize(right)) : Frame(direction).tangent;
+}
+
+void add_light(const tinygltf::Light& source, const tinygltf::Node& node, const Matrix4d& world, DraftScene& draft) {
   PunctualLight light;
+  light.name = source.name.empty() ? node.name : source.name;
   const Vec3d back = row(world, 2);
   if (length(back) > 0) light.direction = to_float(normalize(-back));
+  light.right = right_of(world, light.direction);
   if (source.type == "spot") light.kind = PunctualLight::Kind::kSpot;
   if (source.type == "directional") light.kind = PunctualLight::Kind::kDirectional;
   if (light.kind == PunctualLight::Kind::kSpot) {
@@ -89,7 +79,7 @@ void add_light(const tinygltf::Light& source, const Matrix4d& world, DraftScene&
     light.intensity = Spectrum(color * source.intensity);
   }
   if (source.range > 0) add_note(draft.scene, "The range of punctual lights is ignored: they shine to infinity.");
-  draft.scene.lights.push_back(light);
+  draft.scene.lights.push_back(std::move(light));
   draft.light_positions.push_back(row(world, 3));
 }
 
@@ -99,8 +89,7 @@ int light_of(const tinygltf::Node& node) {
   return found->second.Get("light").GetNumberAsInt();
 }
 
-Status place_node(const GltfModel& model, const tinygltf::Node& node, const Matrix4d& world,
-                  std::span<const std::vector<std::uint32_t>> mesh_parts, DraftScene& draft) {
+Status check_place(const Matrix4d& world) {
   for (int i = 0; i < 4; ++i) {
     const Vec3d line = row(world, i);
     const double largest = std::max({std::fabs(line.x), std::fabs(line.y), std::fabs(line.z)});
@@ -108,20 +97,43 @@ Status place_node(const GltfModel& model, const tinygltf::Node& node, const Matr
       return fail(Code::kInvalidArgument, "world transform is not finite or beyond 1e18");
     }
   }
-  if (node.mesh >= 0) {
-    if (node.skin >= 0) add_note(draft.scene, "Skins are ignored: skinned meshes keep the shape stored in the file.");
-    for (const std::uint32_t mesh : mesh_parts[static_cast<std::size_t>(node.mesh)]) {
+  return {};
+}
+
+/// An instance of each part of the node's mesh, in each place that EXT_mesh_gpu_instancing gives it.
+Status place_mesh(const GltfModel& model, const tinygltf::Node& node, const Matrix4d& world,
+                  std::span<const std::uint32_t> parts, DraftScene& draft) {
+  if (parts.empty()) return {};
+  if (node.skin >= 0) add_note(draft.scene, "Skins are ignored: skinned meshes keep the shape stored in the file.");
+  // Both factors are bounded by limits.h, so that their product does not overflow.
+  if (draft.scene.instances.size() + gltf_instance_count(model, node) * parts.size() > limits::kInstances) {
+    return fail(Code::kResourceExhausted, "scene has more than " + std::to_string(limits::kInstances) + " instances");
+  }
+  RADFARM_TRY(const std::vector<Matrix4d> places, read_gltf_instances(model, node));
+  for (const Matrix4d& place : places) {
+    const Matrix4d placed = place * world;
+    RADFARM_TRY_STATUS(check_place(placed));
+    for (const std::uint32_t mesh : parts) {
       draft.scene.instances.push_back({mesh, Matrix4(), node.name});
-      draft.instance_to_world.push_back(world);
+      draft.instance_to_world.push_back(placed);
     }
+  }
+  return {};
+}
+
+Status place_node(const GltfModel& model, const tinygltf::Node& node, const Matrix4d& world,
+                  std::span<const std::vector<std::uint32_t>> mesh_parts, DraftScene& draft) {
+  RADFARM_TRY_STATUS(check_place(world));
+  if (node.mesh >= 0) {
+    const auto& parts = mesh_parts[static_cast<std::size_t>(node.mesh)];
+    RADFARM_TRY_STATUS(place_mesh(model, node, world, parts, draft));
   }
   if (node.camera >= 0) add_camera(model.document.cameras[static_cast<std::size_t>(node.camera)], node, world, draft);
   if (const int light = light_of(node); light >= 0) {
-    add_light(model.document.lights.at(static_cast<std::size_t>(light)), world, draft);
+    add_light(model.document.lights.at(static_cast<std::size_t>(light)), node, world, draft);
   }
-  if (draft.scene.instances.size() > limits::kInstances || draft.scene.lights.size() > limits::kLights) {
-    return fail(Code::kResourceExhausted, "scene has more than " + std::to_string(limits::kInstances) +
-                                              " instances or " + std::to_string(limits::kLights) + " lights");
+  if (draft.scene.lights.size() > limits::kLights) {
+    return fail(Code::kResourceExhausted, "scene has more than " + std::to_string(limits::kLights) + " lights");
   }
   return {};
 }

@@ -1,7 +1,8 @@
 #include "scene/obj.h"
 
-#include <exception>
+#include <algorithm>
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <sstream>
 #include <unordered_map>
@@ -15,6 +16,7 @@
 #include "scene/obj_material.h"
 #include "scene/obj_scan.h"
 #include "scene/polygon.h"
+#include "scene/texture_uses.h"
 
 namespace radfarm {
 namespace {
@@ -137,7 +139,8 @@ class ObjBuilder {
 
   void fill_vertices(const MeshBuilder& part, Mesh& mesh, std::vector<Vec3d>& positions) const {
     const Material& material = draft_.scene.materials[part.material];
-    const bool is_textured = material.reflectance_texture != kNone || material.emission_texture != kNone;
+    const auto uses = texture_uses(material);
+    const bool is_textured = std::any_of(uses.begin(), uses.end(), [](const auto* use) { return use->is_used(); });
     for (const Corner& corner : part.corners) {
       positions.push_back(positions_[static_cast<std::size_t>(corner.position)]);
       // A corner without normal gets the zero vector, which clean_meshes() replaces by the surface's own.

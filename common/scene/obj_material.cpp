@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <exception>
+#include <set>
 #include <sstream>
-#include <tuple>
 
 #include <tiny_obj_loader.h>
 
 #include "base/file.h"
 #include "scene/draft_scene.h"
-#include "scene/image_file.h"
 #include "scene/limits.h"
+#include "scene/obj_layers.h"
+#include "scene/obj_texture.h"
 #include "scene/reference.h"
 
 namespace radfarm {
@@ -44,10 +45,25 @@ std::size_t line_of_material(const std::string& text, const std::string& name) {
   return found;
 }
 
+using MtlKeys = std::set<std::string>;
+
+/// Which keys each material gives: tinyobj does not tell a default from a value.
+std::map<std::string, MtlKeys> keys_given(const std::string& text) {
+  std::map<std::string, MtlKeys> keys;
+  std::string material;
+  for_each_line(text, [&](std::size_t, std::string_view line) {
+    const std::string key(take_word(line));
+    if (key == "newmtl") material = std::string(trimmed(line));
+    if (key == "illum" || key == "Tf") keys[material].insert(key);
+  });
+  return keys;
+}
+
 /// Reads one MTL file into the scene.
 class LibraryReader {
  public:
-  LibraryReader(const std::filesystem::path& folder, Scene& scene) : folder_(folder), scene_(scene) {}
+  LibraryReader(const std::filesystem::path& folder, Scene& scene)
+      : folder_(folder), scene_(scene), textures_(folder, scene) {}
 
   /// False when there is no such file.
   Result<bool> read(const std::string& name, ObjMaterials& materials) {
@@ -65,8 +81,9 @@ class LibraryReader {
       return fail(Code::kInvalidArgument, path.string() + ": is not plain text");
     const auto parsed = parse_mtl(text);
     if (!parsed) return annotate(parsed.error(), path.string());
+    std::map<std::string, MtlKeys> keys = keys_given(text);
     for (const tinyobj::material_t& source : *parsed) {
-      const auto material = read_material(source, path.parent_path());
+      const auto material = read_material(source, keys[std::string(trimmed(source.name))], path.parent_path());
       if (!material) {
         return fail(material.error().code, path.string() + ": line " +
                                                std::to_string(line_of_material(text, source.name)) + ": material '" +
@@ -85,62 +102,76 @@ class LibraryReader {
     return fail(Code::kInvalidArgument, message.str());
   }
 
-  Result<Material> read_material(const tinyobj::material_t& source, const std::filesystem::path& folder) {
-    const SpectrumD diffuse = spectrum(source.diffuse);
-    const SpectrumD specular = spectrum(source.specular);
-    RADFARM_TRY_STATUS(check_range("Kd", diffuse, 1));
-    RADFARM_TRY_STATUS(check_range("Ks", specular, limits::kLight));
+  Result<Material> read_material(const tinyobj::material_t& source, const MtlKeys& keys,
+                                 const std::filesystem::path& folder) {
+    RADFARM_TRY(const ObjOptics optics, optics_of(source, keys));
     RADFARM_TRY_STATUS(check_range("Ke", spectrum(source.emission), limits::kLight));
     RADFARM_TRY_STATUS(check_range("d", SpectrumD(source.dissolve), 1));
     Material material;
     material.name = std::string(trimmed(source.name));
-    // Gloss is folded into diffuse; a sum above 1 is scaled as a whole, which keeps its hue.
-    const SpectrumD sum = diffuse + specular;
-    material.reflectance = Spectrum(sum / std::max(1.0, max_component(sum)));
-    material.folds_gloss_into_diffuse = !is_black(specular);
+    set_obj_layers(optics, material);
     material.emission = Spectrum(spectrum(source.emission));
-    material.alpha = static_cast<float>(source.dissolve);
+    const bool is_glass = is_obj_glass(optics.illumination);
+    // What is seen through glass is the glass's doing; elsewhere `d` is how much of the surface is there.
+    if (!is_glass) material.alpha = static_cast<float>(source.dissolve);
     if (material.alpha < 1) material.alpha_mode = Material::Alpha::kBlend;
-    if (!source.diffuse_texname.empty()) {
-      RADFARM_TRY(material.reflectance_texture,
-                  read_texture(folder, "map_Kd", source.diffuse_texname, source.diffuse_texopt));
-    }
-    if (!source.emissive_texname.empty() && !is_black(material.emission)) {
-      RADFARM_TRY(material.emission_texture,
-                  read_texture(folder, "map_Ke", source.emissive_texname, source.emissive_texopt));
-    }
-    if (!source.alpha_texname.empty()) add_note(scene_, "Transparency textures of OBJ materials (map_d) are ignored.");
+    RADFARM_TRY_STATUS(read_textures(source, is_glass, folder, material));
+    note_what_is_ignored(source);
     return material;
   }
 
-  Result<std::uint32_t> read_texture(const std::filesystem::path& folder, const std::string& key,
-                                     const std::string& name, const tinyobj::texture_option_t& options) {
-    RADFARM_TRY(const std::filesystem::path path, path_of_name((folder / name).generic_string()));
-    const bool is_srgb = options.colorspace != "linear";
-    const auto [known, is_new] = textures_.try_emplace({path.string(), options.clamp, is_srgb}, 0U);
-    if (!is_new) return known->second;
-    const Result<std::string> bytes = read_file(folder_ / path, limits::kTextureFileBytes);
-    if (!bytes) return annotate(bytes.error(), key);
-    Result<Texture> texture = decode_image(*bytes);
-    if (!texture) return annotate(texture.error(), key + " " + path.string());
-    texture->is_srgb = is_srgb;
-    texture->wrap_u = texture->wrap_v = options.clamp ? Texture::Wrap::kClamp : Texture::Wrap::kRepeat;
-    if (options.scale[0] != 1 || options.scale[1] != 1 || options.origin_offset[0] != 0 ||
-        options.origin_offset[1] != 0) {
-      add_note(scene_, "Texture offsets and scales of OBJ materials (-o, -s) are ignored.");
+  static Result<ObjOptics> optics_of(const tinyobj::material_t& source, const MtlKeys& keys) {
+    ObjOptics optics;
+    optics.diffuse = spectrum(source.diffuse);
+    optics.specular = spectrum(source.specular);
+    if (keys.contains("Tf")) optics.filter = spectrum(source.transmittance);
+    if (keys.contains("illum")) optics.illumination = source.illum;
+    optics.shininess = source.shininess;
+    optics.ior = source.ior;
+    RADFARM_TRY_STATUS(check_range("Kd", optics.diffuse, 1));
+    RADFARM_TRY_STATUS(check_range("Ks", optics.specular, limits::kLight));
+    RADFARM_TRY_STATUS(check_range("Tf", optics.filter, limits::kLight));
+    RADFARM_TRY_STATUS(check_range("Ns", SpectrumD(std::max(optics.shininess, 0.0)), limits::kLight));
+    RADFARM_TRY_STATUS(check_range("Ni", SpectrumD(optics.ior), limits::kLight));
+    return optics;
+  }
+
+  Status read_textures(const tinyobj::material_t& source, bool is_glass, const std::filesystem::path& folder,
+                       Material& material) {
+    if (material.metallic > 0) {
+      RADFARM_TRY(material.base_texture, color("map_Ks", source.specular_texname, source.specular_texopt, folder));
+    } else if (!is_glass && !(source.diffuse_texname.empty() && source.alpha_texname.empty())) {
+      RADFARM_TRY(material.base_texture, textures_.color_and_alpha(folder, source));
+      if (!source.alpha_texname.empty()) material.alpha_mode = Material::Alpha::kBlend;
     }
-    texels_ += texture->texels.size();
-    if (texels_ > limits::kTextureTexels)
-      return fail(Code::kResourceExhausted, key + ": textures have too many pixels");
-    known->second = static_cast<std::uint32_t>(scene_.textures.size());
-    scene_.textures.push_back(std::move(*texture));
-    return known->second;
+    if (material.specular > 0 && !is_glass) {
+      RADFARM_TRY(material.specular_color_texture,
+                  color("map_Ks", source.specular_texname, source.specular_texopt, folder));
+    }
+    if (!is_black(material.emission)) {
+      RADFARM_TRY(material.emission_texture, color("map_Ke", source.emissive_texname, source.emissive_texopt, folder));
+    }
+    if (!source.normal_texname.empty() || !source.bump_texname.empty()) {
+      RADFARM_TRY(material.normal_texture, textures_.normals(folder, source));
+    }
+    return {};
+  }
+
+  Result<TextureUse> color(const std::string& key, const std::string& name, const tinyobj::texture_option_t& options,
+                           const std::filesystem::path& folder) {
+    if (name.empty()) return TextureUse();
+    return textures_.color(folder, key, name, options);
+  }
+
+  void note_what_is_ignored(const tinyobj::material_t& source) {
+    if (!source.specular_highlight_texname.empty()) add_note(scene_, "Gloss textures (map_Ns) are ignored.");
+    if (!source.displacement_texname.empty()) add_note(scene_, "Displacement textures (disp) are ignored.");
+    if (!source.reflection_texname.empty()) add_note(scene_, "Reflection maps (refl) are ignored.");
   }
 
   const std::filesystem::path& folder_;
   Scene& scene_;
-  std::map<std::tuple<std::string, bool, bool>, std::uint32_t> textures_;
-  std::size_t texels_ = 0;
+  ObjTextureReader textures_;
 };
 
 }  // namespace
@@ -161,7 +192,9 @@ std::vector<std::string> texture_names(const std::string& mtl_text) {
   const auto parsed = parse_mtl(mtl_text);
   if (!parsed) return names;
   for (const tinyobj::material_t& material : *parsed) {
-    for (const std::string& name : {material.diffuse_texname, material.emissive_texname}) {
+    for (const std::string& name :
+         {material.diffuse_texname, material.emissive_texname, material.specular_texname, material.alpha_texname,
+          material.bump_texname, material.normal_texname}) {
       if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   }

@@ -19,14 +19,23 @@ constexpr const char* kDeviceConfig = "isa=avx2,threads=0";
 constexpr const char* kDeviceConfig = "threads=0";
 #endif
 
+/// A pane on a ray's way that changed its colour.
+struct Passed {
+  float distance = 0;
+  Spectrum weight;
+};
+
 /// What a query carries to the filter callbacks. Embree hands back a pointer to `base`, which must come first.
 struct Query {
   rtc::Context base;
   const Surfaces* surfaces = nullptr;
   std::uint64_t key = 0;
-  std::array<float, 8> transmittance{1, 1, 1, 1, 1, 1, 1, 1};
+  Vec3 direction{0, 0, 1};
+  bool stops_at_panes = false;
+  Spectrum transmittance{1.0F};
+  std::vector<Passed> passed;  // in the order of traversal: also panes behind the surface that is met
 
-  explicit Query(const Surfaces& s, std::uint64_t k = 0) : surfaces(&s), key(k) { rtc::start(base); }
+  Query(const Surfaces& s, const Vec3& d, std::uint64_t k = 0) : surfaces(&s), key(k), direction(d) { rtc::start(base); }
 };
 
 Hit hit_in_packet(const RTCFilterFunctionNArguments& arguments, unsigned int lane) {
@@ -37,26 +46,30 @@ Hit hit_in_packet(const RTCFilterFunctionNArguments& arguments, unsigned int lan
           RTCHitN_primID(hit, n, lane), RTCHitN_u(hit, n, lane), RTCHitN_v(hit, n, lane), 0};
 }
 
-/// Camera and path rays: stop with probability coverage, by a number keyed by ray and triangle.
-void choose_by_coverage(const RTCFilterFunctionNArguments* arguments) {
-  const auto* query = reinterpret_cast<const Query*>(arguments->context);
+/// Camera and path rays: go on with the probability of the colour that passes most, by a number keyed by ray and triangle.
+void choose_by_passage(const RTCFilterFunctionNArguments* arguments) {
+  auto* query = reinterpret_cast<Query*>(arguments->context);
   for (unsigned int lane = 0; lane < arguments->N; ++lane) {
     if (arguments->valid[lane] == 0) continue;
     const Hit hit = hit_in_packet(*arguments, lane);
-    const float choice = to_unit_float(combine(query->key, hit.instance, hit.triangle));
-    if (choice >= query->surfaces->coverage(hit)) arguments->valid[lane] = 0;
+    const Spectrum passage = query->stops_at_panes ? Spectrum(1 - query->surfaces->coverage(hit))
+                                                   : query->surfaces->passage(hit, query->direction);
+    const float most = max_component(passage);
+    if (to_unit_float(combine(query->key, hit.instance, hit.triangle)) >= most) continue;
+    arguments->valid[lane] = 0;
+    const bool is_tinted = min_component(passage) != most;
+    if (is_tinted) query->passed.push_back({RTCRayN_tfar(arguments->ray, arguments->N, lane), passage / most});
   }
 }
 
 /// Shadow rays: gather the product of what passes; go on unless nothing is left.
-void multiply_by_coverage(const RTCFilterFunctionNArguments* arguments) {
+void multiply_by_passage(const RTCFilterFunctionNArguments* arguments) {
   auto* query = reinterpret_cast<Query*>(arguments->context);
   for (unsigned int lane = 0; lane < arguments->N; ++lane) {
     if (arguments->valid[lane] == 0) continue;
-    const unsigned int ray = RTCRayN_id(arguments->ray, arguments->N, lane);
-    const float passes = 1 - query->surfaces->coverage(hit_in_packet(*arguments, lane));
-    query->transmittance[ray] *= passes;
-    if (passes > 0) arguments->valid[lane] = 0;
+    const Spectrum passage = query->surfaces->passage(hit_in_packet(*arguments, lane), query->direction);
+    query->transmittance *= passage;
+    if (!is_black(passage)) arguments->valid[lane] = 0;
   }
 }
 
@@ -120,10 +133,21 @@ struct RayCaster::Tree {
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
 
+  std::optional<Hit> meet(const Ray& ray, float reach, Query& query) const {
+    RTCRayHit ray_hit;
+    ray_hit.ray = make_ray(ray.origin, ray.direction, reach);
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtc::intersect(top, query.base, ray_hit);
+    const RTCHit& hit = ray_hit.hit;
+    if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? hit.geomID : hit.instID[0], hit.primID, hit.u, hit.v,
+               ray_hit.ray.tfar};
+  }
   void set_filters(RTCGeometry geometry, std::uint32_t mesh) const {
-    if (!surfaces->has_holes(mesh)) return;  // effect alpha_cutout off: no callback is bound at all
-    rtcSetGeometryIntersectFilterFunction(geometry, choose_by_coverage);
-    rtcSetGeometryOccludedFilterFunction(geometry, multiply_by_coverage);
+    if (!surfaces->lets_through(mesh)) return;  // neither holes nor panes: no callback is bound at all
+    rtcSetGeometryIntersectFilterFunction(geometry, choose_by_passage);
+    rtcSetGeometryOccludedFilterFunction(geometry, multiply_by_passage);
   }
   /// World-space vertices as Surfaces computes them, so that both agree on where the surface is.
   void place_once(std::uint32_t id) const {
@@ -182,41 +206,37 @@ RayCaster::RayCaster(const Surfaces& surfaces) : tree_(std::make_unique<Tree>(su
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster::~RayCaster() = default;
 
-std::optional<Hit> RayCaster::closest(const Ray& ray, std::uint64_t key, float reach) const {
-  Query query(*tree_->surfaces, key);
-  RTCRayHit ray_hit;
-  ray_hit.ray = make_ray(ray.origin, ray.direction, reach);
-  ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtc::intersect(tree_->top, query.base, ray_hit);
-  const RTCHit& hit = ray_hit.hit;
-  if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Hit{hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? hit.geomID : hit.instID[0], hit.primID, hit.u, hit.v,
-             ray_hit.ray.tfar};
+std::optional<Hit> RayCaster::closest(const Ray& ray, std::uint64_t key, float reach, Spectrum* passed) const {
+  Query query(*tree_->surfaces, ray.direction, key);
+  auto met = tree_->meet(ray, reach, query);
+  Spectrum weight(1.0F);
+  for (const Passed& pane : query.passed) {
+    if (!met || pane.distance < met->distance) weight *= pane.weight;
+  }
+  if (!met) {
+    if (passed != nullptr) *passed = weight;
+    return std::nullopt;
+  }
+  met->weight = weight;
+  if (tree_->surfaces->is_pane(tree_->surfaces->scene().instances[met->instance].mesh)) {
+    // The ray was stopped with this probability, by what the surface covers.
+    const float stopped = 1 - max_component(tree_->surfaces->passage(*met, ray.direction));
+    met->weight *= stopped > 0 ? tree_->surfaces->coverage(*met) / stopped : 0;
+  }
+  return met;
 }
 
-float RayCaster::transmittance(const Vec3& from, const Vec3& to) const {
-  Query query(*tree_->surfaces);
+std::optional<Hit> RayCaster::closest_with_panes(const Ray& ray, std::uint64_t key) const {
+  Query query(*tree_->surfaces, ray.direction, key);
+  query.stops_at_panes = true;
+  return tree_->meet(ray, std::numeric_limits<float>::infinity(), query);
+}
+
+Spectrum RayCaster::transmittance(const Vec3& from, const Vec3& to) const {
+  Query query(*tree_->surfaces, to - from);
   RTCRay ray = make_ray(from, to - from, 1);
   rtc::occluded(tree_->top, query.base, ray);
-  return ray.tfar < 0 ? 0 : query.transmittance[0];
-}
-
-void RayCaster::transmittance8(const Vec3& from, std::span<const Vec3> to, std::span<float> result) const {
-  RADFARM_DCHECK(to.size() <= 8 && result.size() >= to.size());
-  Query query(*tree_->surfaces);
-  alignas(32) std::array<int, 8> valid{};
-  RTCRay8 rays{};
-  for (std::size_t i = 0; i < to.size(); ++i) {
-    valid[i] = -1;
-    rays.org_x[i] = from.x, rays.org_y[i] = from.y, rays.org_z[i] = from.z;
-    rays.dir_x[i] = to[i].x - from.x, rays.dir_y[i] = to[i].y - from.y, rays.dir_z[i] = to[i].z - from.z;
-    rays.tfar[i] = 1;
-    rays.mask[i] = 0xffffffffU;
-    rays.id[i] = static_cast<unsigned int>(i);
-  }
-  rtc::occluded8(valid.data(), tree_->top, query.base, rays);
-  for (std::size_t i = 0; i < to.size(); ++i) result[i] = rays.tfar[i] < 0 ? 0 : query.transmittance[i];
+  return ray.tfar < 0 ? Spectrum() : query.transmittance;
 }
 
 std::string ray_caster_name() { return "Embree " RTC_VERSION_STRING " (" + std::string(kDeviceConfig) + ")"; }

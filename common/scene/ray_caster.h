@@ -22,17 +22,18 @@ class RayCaster {
   RayCaster(RayCaster&&) noexcept;
   ~RayCaster();
 
-  /// The nearest surface along a unit ray, up to `reach`. A surface with coverage a stops the ray with probability a, decided by
-  /// `key` and the triangle, so the answer does not depend on the order in which triangles are tested.
-  std::optional<Hit> closest(const Ray& ray, std::uint64_t key, float reach = std::numeric_limits<float>::infinity()) const;
+  /// The nearest surface along a unit ray, up to `reach`. A surface lets the ray on with the probability passage(), decided by
+  /// `key` and the triangle, so the answer does not depend on the order in which triangles are tested. Hit::weight, or
+  /// `passed` where nothing is met, is the ray's colour after the panes it went through.
+  std::optional<Hit> closest(const Ray& ray, std::uint64_t key, float reach = std::numeric_limits<float>::infinity(),
+                             Spectrum* passed = nullptr) const;
 
-  /// The share of light that passes from one point to another: 0 when blocked, else the product of (1 - coverage).
+  /// The nearest surface, panes too: for a caller that follows both what passes a pane and what it reflects.
+  std::optional<Hit> closest_with_panes(const Ray& ray, std::uint64_t key) const;
+
+  /// The share of light that passes from one point to another: 0 when blocked, else the product of passage().
   /// Both ends must already be off the surfaces they belong to (leave()).
-  float transmittance(const Vec3& from, const Vec3& to) const;
-
-  /// transmittance() from one point to up to 8 targets as one packet. The same bits as 8 single calls are not promised:
-  /// a caller uses one form or the other for all workers (DESIGN 6: one fixed packet width).
-  void transmittance8(const Vec3& from, std::span<const Vec3> to, std::span<float> result) const;
+  Spectrum transmittance(const Vec3& from, const Vec3& to) const;
 
  private:
   struct Tree;

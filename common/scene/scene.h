@@ -27,22 +27,60 @@ struct Texture {
   std::vector<std::array<std::uint8_t, 4>> texels;  // row 0 is v = 0 (glTF's convention: top row)
 };
 
-/// Lambertian for now (docs/architecture.md, Materials): both sides reflect and block, the front emits.
+/// How a material uses a texture: which one, by which UV set, moved by which affine map (KHR_texture_transform):
+/// (u', v') = (m0 u + m1 v + m2, m3 u + m4 v + m5).
+struct TextureUse {
+  std::uint32_t texture = kNone;
+  std::uint32_t uv_set = 0;  // 0 or 1
+  std::array<float, 6> map{1, 0, 0, 0, 1, 0};
+
+  bool is_used() const { return texture != kNone; }
+  friend bool operator==(const TextureUse&, const TextureUse&) = default;
+};
+
+/// What a surface does to light, in the terms of glTF (docs/materials.md). Textures multiply their factors. The default is
+/// Lambertian: no metal, no specular layer. Both sides reflect and block, the front emits.
 struct Material {
   std::string name;
-  Spectrum reflectance{0.5F};               // rho, [0, 1]; times the texture and the vertex colour
-  std::uint32_t reflectance_texture = kNone;
-  std::uint32_t reflectance_uv = 0;          // which UV set: 0 or 1
+  Spectrum base_color{0.5F};                 // [0, 1]; times the texture and the vertex colour
+  TextureUse base_texture;                   // sRGB colour and alpha
+  float metallic = 0;
+  float roughness = 1;                       // GGX alpha = roughness^2
+  TextureUse metallic_roughness_texture;     // roughness in green, metallic in blue
+  float specular = 0;                        // weight of the dielectric layer: 1 in glTF unless KHR_materials_specular says otherwise
+  TextureUse specular_texture;               // alpha
+  Spectrum specular_color{1.0F};             // of the layer at normal incidence
+  TextureUse specular_color_texture;         // sRGB colour
+  float ior = 1.5F;
+  float transmission = 0;                    // share of the base that light passes instead of being scattered
+  TextureUse transmission_texture;           // red
+  bool has_volume = false;                   // light bends and is absorbed inside; otherwise the surface is a thin pane
+  Spectrum attenuation_color{1.0F};          // of light that went attenuation_distance through the volume
+  float attenuation_distance = 0;            // m; 0: none
+  float clearcoat = 0;
+  TextureUse clearcoat_texture;              // red
+  float clearcoat_roughness = 0;
+  TextureUse clearcoat_roughness_texture;    // green
+  Spectrum sheen_color;
+  TextureUse sheen_color_texture;            // sRGB colour
+  float sheen_roughness = 0;
+  TextureUse sheen_roughness_texture;        // alpha
+  float anisotropy = 0;                      // strength along the tangent turned by anisotropy_rotation
+  float anisotropy_rotation = 0;             // radians
+  TextureUse normal_texture;                 // linear, tangent space; of a material with it, meshes have UVs
+  float normal_scale = 1;
   Spectrum emission;                         // emitted radiance L_e, cd/m^2 in luminance; times the texture
-  std::uint32_t emission_texture = kNone;
-  std::uint32_t emission_uv = 0;
+  TextureUse emission_texture;               // sRGB colour
   bool emits_from_both_sides = false;        // glTF doubleSided
   enum class Alpha : std::uint8_t { kOpaque, kMask, kBlend };
   Alpha alpha_mode = Alpha::kOpaque;
-  float alpha = 1;                           // coverage; times the reflectance texture's alpha and the vertex alpha
+  float alpha = 1;                           // coverage; times the base texture's alpha and the vertex alpha
   float alpha_cutoff = 0.5F;                 // kMask: coverage is 1 at or above, else 0
-  bool folds_gloss_into_diffuse = false;     // the file describes more than a Lambertian surface
   bool is_switched_off = false;              // a lamp of no power: the file gives an emission, and 0 as its strength
+
+  bool is_lambertian() const {
+    return metallic == 0 && specular == 0 && transmission == 0 && clearcoat == 0 && is_black(sheen_color);
+  }
 };
 
 /// Triangles of one material in their own coordinates. Optional arrays are empty or as long as `positions`.
@@ -51,6 +89,7 @@ struct Mesh {
   std::uint32_t material = 0;
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;                 // unit shading normals
+  std::vector<std::array<float, 4>> tangents;  // unit, and the handedness of the bitangent: +1 or -1
   std::array<std::vector<Vec2>, 2> uv;
   std::vector<std::array<float, 4>> colors;  // linear RGB and alpha
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -73,6 +112,32 @@ struct PunctualLight {
   Spectrum intensity;
   float cos_inner = 1;       // spot: full intensity inside this cone ...
   float cos_outer = 0;       // ... none outside this one
+  std::string name;
+  std::uint32_t photometry = kNone;  // IES: `intensity` times the table; its nadir is `direction`, its C0 half-plane holds `right`
+  Vec3 right{1, 0, 0};               // unit, perpendicular to `direction`
+};
+
+/// Luminous intensity by direction as an IES LM-63 file gives it, in type C coordinates: gamma from the nadir, C around it.
+struct Photometry {
+  std::string name;
+  std::vector<float> gamma;    // degrees, ascending, within [0, 180]
+  std::vector<float> c;        // degrees, ascending, from 0 to 90, 180 or 360, or just 0: symmetric about the axis
+  std::vector<float> candela;  // c.size() rows of gamma.size()
+};
+
+/// Light from infinitely far away: a latitude-longitude map and a sun. Empty: width 0 and a black sun.
+struct Environment {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<Spectrum> radiance;  // cd/m^2; row 0 is straight up (+y); columns go from -z over +x, +z, -x
+  struct Sun {
+    Vec3 direction{0, 1, 0};       // unit, towards it
+    float cos_radius = 1;          // of its disc
+    Spectrum radiance;
+  };
+  Sun sun;
+
+  bool is_empty() const { return width == 0 && is_black(sun.radiance); }
 };
 
 /// A view: `to_world` has orthonormal axes, the camera looks along its -z, +y is up.
@@ -87,6 +152,8 @@ struct Camera {
   float vertical_fov = 0.7854F;  // radians; perspective
   float half_height = 1;         // metres; orthographic
   float aspect = 0;              // width / height the file asks for; 0 when it does not say
+  float lens_diameter = 0;       // metres; perspective. 0: a pinhole, everything sharp
+  float focus_distance = 1;      // metres along the view to the plane that is sharp
 };
 
 struct Scene {
@@ -95,6 +162,8 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
+  std::vector<Photometry> photometries;
+  Environment environment;
   std::vector<Camera> cameras;
   Vec3d origin{0, 0, 0};                         // what was subtracted from the file's coordinates, metres
   std::vector<std::string> notes;       // what the file asks for and radfarm treats otherwise, one sentence each

@@ -27,12 +27,74 @@ bool texture_has_alpha(const Texture& texture) {
   return std::any_of(texture.texels.begin(), texture.texels.end(), [](const auto& t) { return t[3] < 255; });
 }
 
-bool compute_has_holes(const Scene& scene, const Mesh& mesh) {
+bool has_holes(const Scene& scene, const Mesh& mesh) {
   const Material& material = scene.materials[mesh.material];
   if (material.alpha_mode == Material::Alpha::kOpaque) return false;
   const bool vertex_alpha = std::any_of(mesh.colors.begin(), mesh.colors.end(), [](const auto& c) { return c[3] < 1; });
   return material.alpha < 1 || vertex_alpha ||
-         (material.reflectance_texture != kNone && texture_has_alpha(scene.textures[material.reflectance_texture]));
+         (material.base_texture.is_used() && texture_has_alpha(scene.textures[material.base_texture.texture]));
+}
+
+/// Whether a point of the material may be a pane: a roughness texture only makes it smoother.
+bool may_be_pane(const Material& m) {
+  const bool is_smooth = m.roughness * m.roughness < kLeastAlpha || m.metallic_roughness_texture.is_used();
+  return m.transmission > 0 && !m.has_volume && is_smooth && (m.metallic < 1 || m.metallic_roughness_texture.is_used());
+}
+
+Vec2 moved(const TextureUse& use, const std::array<Vec2, 2>& uv) {
+  const Vec2& at = uv[use.uv_set];
+  const auto& m = use.map;
+  return {m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};
+}
+
+Vec4 look_up(const Scene& scene, const TextureUse& use, const std::array<Vec2, 2>& uv) {
+  return use.is_used() ? texture_lookup(scene.textures[use.texture], moved(use, uv)) : Vec4(1, 1, 1, 1);
+}
+
+Spectrum color(const Vec4& texel) { return {texel.x, texel.y, texel.z}; }
+
+std::array<Vec2, 2> interpolate_uv(const Mesh& mesh, const std::array<std::uint32_t, 3>& index, float u, float v) {
+  std::array<Vec2, 2> uv{Vec2(0, 0), Vec2(0, 0)};
+  for (std::size_t set = 0; set < 2; ++set) {
+    if (!mesh.uv[set].empty()) uv[set] = interpolate(mesh.uv[set], index, u, v);
+  }
+  return uv;
+}
+
+/// A tangent along u and the handedness of its bitangent.
+struct Tangent {
+  Vec3 along{0, 0, 0};
+  float handedness = 1;
+};
+
+/// From the mesh's UVs: along growing u; the bitangent points up the image, against growing v.
+Tangent tangent_of_uv(const std::array<Vec3, 3>& p, const std::array<Vec2, 3>& uv, const Vec3& normal) {
+  const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
+  const float turn = a.x * b.y - a.y * b.x;
+  if (turn == 0) return {};
+  const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0];
+  const Vec3 along = (e1 * b.y - e2 * a.y) / turn, down = (e2 * a.x - e1 * b.x) / turn;
+  return {normalize(along), dot(cross(normal, along), down) > 0 ? -1.0F : 1.0F};
+}
+
+/// The part of the tangent across the normal, unit; the zero vector when nothing is left.
+Vec3 across(const Vec3& tangent, const Vec3& normal) { return normalize(tangent - normal * dot(tangent, normal)); }
+
+/// Turns the shading normal towards the geometric one until the viewer sees it, and its mirror image of the viewer lies above the
+/// surface: otherwise bumps seen at a slant show black.
+void straighten(SurfacePoint& point, const Vec3& to_viewer) {
+  const Vec3 g = point.geometric_normal, bent = point.shading_normal;
+  const auto is_seen = [&](const Vec3& n) {
+    const float cosine = dot(n, to_viewer);
+    return cosine > 0 && 2 * cosine * dot(n, g) > dot(to_viewer, g);  // the mirrored direction is above the surface
+  };
+  if (bent == g || is_seen(bent)) return;
+  float least = 0, most = 1;  // share of the geometric normal
+  for (int i = 0; i < 10; ++i) {
+    const float middle = (least + most) / 2;
+    (is_seen(normalize(bent * (1 - middle) + g * middle)) ? most : least) = middle;
+  }
+  point.shading_normal = normalize(bent * (1 - most) + g * most);
 }
 
 }  // namespace
@@ -49,7 +111,10 @@ Surfaces::Surfaces(const Scene& scene) : scene_(&scene) {
         z(to_world[2][0], to_world[2][1], to_world[2][2]);
     placements_.push_back({normals, dot(cross(x, y), z) < 0});
   }
-  for (const Mesh& mesh : scene.meshes) mesh_has_holes_.push_back(compute_has_holes(scene, mesh));
+  for (const Mesh& mesh : scene.meshes) {
+    mesh_is_pane_.push_back(may_be_pane(scene.materials[mesh.material]));
+    mesh_lets_through_.push_back(mesh_is_pane_.back() || has_holes(scene, mesh));
+  }
 }
 
 TriangleVertices Surfaces::triangle(std::uint32_t instance, std::uint32_t triangle) const {
@@ -100,34 +165,93 @@ SurfacePoint Surfaces::at(const Hit& hit) const {
     if (dot(shading, point.geometric_normal) < 0) shading = -shading;
     if (dot(shading, point.geometric_normal) > 0) point.shading_normal = shading;
   }
-  for (std::size_t set = 0; set < 2; ++set) {
-    if (!mesh.uv[set].empty()) point.uv[set] = interpolate(mesh.uv[set], index, hit.u, hit.v);
-  }
+  point.uv = interpolate_uv(mesh, index, hit.u, hit.v);
   if (!mesh.colors.empty()) {
     for (std::size_t k = 0; k < 4; ++k) {
       point.color[k] = mesh.colors[index[0]][k] * (1 - hit.u - hit.v) + mesh.colors[index[1]][k] * hit.u +
                        mesh.colors[index[2]][k] * hit.v;
     }
   }
+  const Material& material = scene_->materials[mesh.material];
+  if (material.normal_texture.is_used() || material.anisotropy > 0) bend(hit, {p0, p1, p2}, point);
   return point;
 }
 
-Spectrum Surfaces::reflectance(const SurfacePoint& point) const {
-  const Material& material = scene_->materials[point.material];
-  Spectrum rho = material.reflectance * Spectrum(point.color[0], point.color[1], point.color[2]);
-  if (material.reflectance_texture != kNone) {
-    const Vec4 texel = texture_lookup(scene_->textures[material.reflectance_texture], point.uv[material.reflectance_uv]);
-    rho *= Spectrum(texel.x, texel.y, texel.z);
+/// Gives the point its tangent, and of a normal map its normal.
+void Surfaces::bend(const Hit& hit, const TriangleVertices& p, SurfacePoint& point) const {
+  const Instance& placed = scene_->instances[hit.instance];
+  const Mesh& mesh = scene_->meshes[placed.mesh];
+  const Material& material = scene_->materials[mesh.material];
+  const auto& index = mesh.triangles[hit.triangle];
+  Tangent tangent;
+  if (!mesh.tangents.empty()) {
+    Vec3 sum(0, 0, 0);
+    const std::array<float, 3> weights = {1 - hit.u - hit.v, hit.u, hit.v};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& t = mesh.tangents[index[k]];
+      sum += Vec3(t[0], t[1], t[2]) * weights[k];
+    }
+    placed.to_world.multDirMatrix(sum, tangent.along);
+    const float mirrored = placements_[hit.instance].is_mirrored ? -1.0F : 1.0F;
+    tangent.handedness = mesh.tangents[index[0]][3] * mirrored;
+  } else if (const auto& uv = mesh.uv[material.normal_texture.uv_set]; !uv.empty()) {
+    tangent = tangent_of_uv(p, {uv[index[0]], uv[index[1]], uv[index[2]]}, point.shading_normal);
   }
-  return rho;
+  const Vec3 n = point.shading_normal, t = across(tangent.along, n);
+  if (t == Vec3(0, 0, 0)) return;
+  point.tangent = t;
+  if (!material.normal_texture.is_used()) return;
+  const Vec4 texel = look_up(*scene_, material.normal_texture, point.uv);
+  const Vec3 local((2 * texel.x - 1) * material.normal_scale, (2 * texel.y - 1) * material.normal_scale, 2 * texel.z - 1);
+  const Vec3 bent = normalize(t * local.x + cross(n, t) * (tangent.handedness * local.y) + n * local.z);
+  // A normal below the surface would show the light of its other side.
+  if (dot(bent, point.geometric_normal) > 0) point.shading_normal = bent;
+}
+
+Matter Surfaces::matter(const SurfacePoint& point) const {
+  const Material& m = scene_->materials[point.material];
+  const auto look = [&](const TextureUse& use) { return look_up(*scene_, use, point.uv); };
+  Matter matter;
+  matter.base = m.base_color * Spectrum(point.color[0], point.color[1], point.color[2]);
+  if (m.base_texture.is_used()) matter.base *= color(look(m.base_texture));
+  if (m.is_lambertian()) return matter;
+  matter.metallic = m.metallic, matter.roughness = m.roughness;
+  if (m.metallic_roughness_texture.is_used()) {
+    const Vec4 texel = look(m.metallic_roughness_texture);
+    matter.roughness *= texel.y, matter.metallic *= texel.z;
+  }
+  matter.specular = m.specular * look(m.specular_texture).w;
+  matter.specular_color = m.specular_color * color(look(m.specular_color_texture));
+  matter.ior = m.ior;
+  matter.transmission = m.transmission * look(m.transmission_texture).x;
+  matter.has_volume = m.has_volume;
+  matter.clearcoat = m.clearcoat * look(m.clearcoat_texture).x;
+  matter.clearcoat_roughness = m.clearcoat_roughness * look(m.clearcoat_roughness_texture).y;
+  matter.sheen = m.sheen_color * color(look(m.sheen_color_texture));
+  matter.sheen_roughness = m.sheen_roughness * look(m.sheen_roughness_texture).w;
+  matter.anisotropy = m.anisotropy, matter.anisotropy_rotation = m.anisotropy_rotation;
+  return matter;
+}
+
+Spectrum Surfaces::absorption(const SurfacePoint& point, float distance) const {
+  const Material& m = scene_->materials[point.material];
+  if (!m.has_volume || m.transmission == 0 || point.is_front || !(m.attenuation_distance > 0)) return Spectrum(1.0F);
+  const float share = distance / m.attenuation_distance;  // Beer and Lambert
+  const Spectrum& c = m.attenuation_color;
+  return {std::pow(c.r, share), std::pow(c.g, share), std::pow(c.b, share)};
+}
+
+Spectrum Surfaces::reflectance(const SurfacePoint& point) const { return mean_reflectance(matter(point)); }
+
+Spectrum Surfaces::reflectance(const SurfacePoint& point, float cosine) const {
+  return radfarm::reflectance(matter(point), cosine);
 }
 
 Spectrum Surfaces::emission(const SurfacePoint& point) const {
   const Material& material = scene_->materials[point.material];
   if (is_black(material.emission) || !(point.is_front || material.emits_from_both_sides)) return {};
-  if (material.emission_texture == kNone) return material.emission;
-  const Vec4 texel = texture_lookup(scene_->textures[material.emission_texture], point.uv[material.emission_uv]);
-  return material.emission * Spectrum(texel.x, texel.y, texel.z);
+  if (!material.emission_texture.is_used()) return material.emission;
+  return material.emission * color(look_up(*scene_, material.emission_texture, point.uv));
 }
 
 float Surfaces::coverage(const Hit& hit) const {
@@ -140,12 +264,30 @@ float Surfaces::coverage(const Hit& hit) const {
     alpha *= mesh.colors[index[0]][3] * (1 - hit.u - hit.v) + mesh.colors[index[1]][3] * hit.u +
              mesh.colors[index[2]][3] * hit.v;
   }
-  if (material.reflectance_texture != kNone && !mesh.uv[material.reflectance_uv].empty()) {
-    const Vec2 uv = interpolate(mesh.uv[material.reflectance_uv], index, hit.u, hit.v);
-    alpha *= texture_lookup(scene_->textures[material.reflectance_texture], uv).w;
+  if (material.base_texture.is_used()) {
+    alpha *= look_up(*scene_, material.base_texture, interpolate_uv(mesh, index, hit.u, hit.v)).w;
   }
   if (material.alpha_mode == Material::Alpha::kMask) return alpha >= material.alpha_cutoff ? 1.0F : 0.0F;
   return std::clamp(alpha, 0.0F, 1.0F);
+}
+
+Spectrum Surfaces::passage(const Hit& hit, const Vec3& direction) const {
+  const float stops = coverage(hit);
+  if (!mesh_is_pane_[scene_->instances[hit.instance].mesh] || stops == 0) return Spectrum(1 - stops);
+  const SurfacePoint point = at(hit);
+  const float cosine = std::fabs(dot(point.geometric_normal, direction)) / length(direction);
+  return Spectrum(1 - stops) + pane_passage(matter(point), cosine) * stops;
+}
+
+Bsdf bsdf_at(const Surfaces& surfaces, SurfacePoint& point, const Vec3& to_viewer) {
+  const Matter matter = surfaces.matter(point);
+  if (!matter.is_lambertian()) straighten(point, to_viewer);
+  Frame frame(point.shading_normal);
+  if (point.tangent != Vec3(0, 0, 0)) {
+    frame.tangent = across(point.tangent, point.shading_normal);
+    frame.bitangent = cross(point.shading_normal, frame.tangent);
+  }
+  return Bsdf(matter, frame, to_viewer, point.is_front);
 }
 
 void face(SurfacePoint& point, const Vec3& to_viewer) {

@@ -26,16 +26,19 @@ std::uint32_t wrap(std::int64_t i, std::uint32_t size, Texture::Wrap mode) {
 }
 
 Vec4 texel(const Texture& texture, std::int64_t x, std::int64_t y) {
+  return texel_at(texture, wrap(x, texture.width, texture.wrap_u), wrap(y, texture.height, texture.wrap_v));
+}
+
+}  // namespace
+
+Vec4 texel_at(const Texture& texture, std::uint32_t x, std::uint32_t y) {
   static const std::array<float, 256> linear_of_srgb = make_linear_of_srgb();
-  const std::size_t row = wrap(y, texture.height, texture.wrap_v);
-  const auto& code = texture.texels[row * texture.width + wrap(x, texture.width, texture.wrap_u)];
+  const auto& code = texture.texels[std::size_t{y} * texture.width + x];
   const float alpha = static_cast<float>(code[3]) / 255.0F;
   if (texture.is_srgb) return {linear_of_srgb[code[0]], linear_of_srgb[code[1]], linear_of_srgb[code[2]], alpha};
   return {static_cast<float>(code[0]) / 255.0F, static_cast<float>(code[1]) / 255.0F,
           static_cast<float>(code[2]) / 255.0F, alpha};
 }
-
-}  // namespace
 
 Vec4 texture_lookup(const Texture& texture, const Vec2& uv) {
   // Coordinates beyond 2^20 repeats have no fraction left in a float: any texel is as right as another.

@@ -34,6 +34,7 @@ World::World(Scene loaded)
       caster(surfaces),
       bounds(find_bounds(surfaces)),
       radius(radius_about_origin(bounds)),
-      emitters(find_emitters(surfaces, radius)) {}
+      environment(scene.environment),
+      emitters(find_emitters(surfaces, environment, radius)) {}
 
 }  // namespace radfarm

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/emitters.h"
+#include "scene/environment_light.h"
 #include "scene/ray_caster.h"
 #include "scene/scene.h"
 #include "scene/surface.h"
@@ -18,6 +19,7 @@ struct World {
   const RayCaster caster;
   const Box3 bounds;   // of all instances
   const float radius;  // of a sphere around the origin that holds them
+  const EnvironmentLight environment;
   const Emitters emitters;
 };
 

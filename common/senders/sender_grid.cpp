@@ -9,7 +9,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::uint32_t kPrepassSamples = 2;
 constexpr std::uint32_t kReceiversPerCell = 16;
 constexpr std::uint32_t kMaxCellsPerAxis = 1024;
@@ -77,10 +77,12 @@ SenderGridFile classify_visible(const World& world, const SenderTree& tree, cons
 std::vector<std::byte> encode(const SenderGridFile& file) {
   std::vector<Lobe> lobes;
   std::vector<CriticalSender> critical;
+  std::vector<float> sky;
   std::vector<std::uint32_t> lobe_counts, critical_counts;
   for (const VertexSenders& senders : file.senders) {
     lobes.insert(lobes.end(), senders.lobes.begin(), senders.lobes.end());
     critical.insert(critical.end(), senders.critical.begin(), senders.critical.end());
+    sky.insert(sky.end(), senders.sky.begin(), senders.sky.end());
     lobe_counts.push_back(static_cast<std::uint32_t>(senders.lobes.size()));
     critical_counts.push_back(static_cast<std::uint32_t>(senders.critical.size()));
   }
@@ -94,11 +96,12 @@ std::vector<std::byte> encode(const SenderGridFile& file) {
   out.add("lobes.count", lobe_counts);
   out.add("critical", critical);
   out.add("critical.count", critical_counts);
+  out.add("sky", sky);
   return out.finish();
 }
 
 Result<SenderGridFile> decode_sender_grid(std::span<const std::byte> bytes, const Camera& camera,
-                                          const SenderTree& tree) {
+                                          const SenderTree& tree, std::size_t sky_patches) {
   RADFARM_TRY(const FlatFileReader in, FlatFileReader::open(bytes, "grid", kVersion));
   RADFARM_TRY(const StoredGrid stored, in.get_value<StoredGrid>("grid"));
   RADFARM_TRY_STATUS(check(stored));
@@ -122,8 +125,11 @@ Result<SenderGridFile> decode_sender_grid(std::span<const std::byte> bytes, cons
   if (!cells_fit || !vertices_fit || !senders_fit) return fail(Code::kDataLoss, "grid: an index lies outside");
   RADFARM_TRY(auto lobe_lists, cut(lobes, lobe_counts));
   RADFARM_TRY(auto critical_lists, cut(critical, critical_counts));
+  RADFARM_TRY(const std::span<const float> sky, in.get<float>("sky"));
+  if (sky.size() != file.vertices.size() * sky_patches) return fail(Code::kDataLoss, "grid: not made for this sky");
   for (std::size_t i = 0; i < file.vertices.size(); ++i) {
-    file.senders.push_back({std::move(lobe_lists[i]), std::move(critical_lists[i])});
+    const auto seen = sky.subspan(i * sky_patches, sky_patches);
+    file.senders.push_back({std::move(lobe_lists[i]), std::move(critical_lists[i]), {seen.begin(), seen.end()}});
   }
   return file;
 }

@@ -24,9 +24,9 @@ SenderGridFile classify_visible(const World& world, const SenderTree& tree, cons
                                 const SenderSettings& settings, std::uint64_t seed);
 
 [[nodiscard]] std::vector<std::byte> encode(const SenderGridFile& file);
-/// `camera` comes from the view that holds the grid. Hostile bytes give DATA_LOSS.
+/// `camera` comes from the view that holds the grid, `sky_patches` is how many the environment has. Hostile bytes give DATA_LOSS.
 Result<SenderGridFile> decode_sender_grid(std::span<const std::byte> bytes, const Camera& camera,
-                                          const SenderTree& tree);
+                                          const SenderTree& tree, std::size_t sky_patches);
 
 /// The senders of any vertex: those of the file, others computed when first asked for. Thread-safe.
 class SenderGrid {

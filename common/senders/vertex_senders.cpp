@@ -6,11 +6,13 @@
 
 #include "base/random.h"
 #include "math/sobol.h"
+#include "senders/vertex_sky.h"
 
 namespace radfarm {
 namespace {
 
 constexpr std::uint64_t kVertexKey = 0x76657274;  // "vert"
+constexpr std::uint64_t kSkyKey = 0x736b79;       // "sky"
 constexpr std::uint32_t kReceivers = 16;
 constexpr std::uint32_t kMinSamples = 4;
 constexpr std::uint32_t kMaxSamples = 64;
@@ -26,7 +28,8 @@ constexpr float kLeastPrior = 0.2F;
 struct Observation {
   float kernel = 0;                  // mean of cos_y / (pi r^2), 1/m^2
   float kernel_min = 0, kernel_max = 0;
-  float visibility = 1;              // kernel-weighted
+  float visibility = 1;              // kernel-weighted, luminance
+  Spectrum passed{1.0F};             // the same by colour
   Vec3 direction{0, 0, 1};
   float angle = 0;                   // mean angular radius of the sender, radians, at most 1
   float hidden_kernel = 0;           // mean kernel of lines below their receivers' horizons
@@ -57,7 +60,8 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
   Observation seen;
   seen.kernel_min = std::numeric_limits<float>::infinity();
   const float radius = length(context.tree.nodes[id].bounds.size()) / 2;
-  double kernel = 0, hidden = 0, passed = 0, angle = 0;
+  double kernel = 0, hidden = 0, angle = 0;
+  SpectrumD passed;
   Vec3d direction(0, 0, 0);
   for (std::uint32_t i = 0; i < samples; ++i) {
     const ReceiverPoint& x = receivers[i % receivers.size()];
@@ -84,18 +88,20 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
     kernel += static_cast<double>(k);
     angle += static_cast<double>(std::min(1.0F, radius / std::sqrt(squared)));
     direction += to_double(normalize(offset)) * static_cast<double>(k);
-    if (k > 0) passed += static_cast<double>(k * context.world.caster.transmittance(x.position, y.leave()));
+    if (k > 0) passed += SpectrumD(context.world.caster.transmittance(x.position, y.leave()) * k);
   }
   seen.hidden_kernel = static_cast<float>(hidden / samples);
   if (!(kernel > 0)) {
     seen.kernel_min = seen.visibility = 0;
+    seen.passed = {};
     return seen;
   }
   // However near, a sender gives no more than its largest radiosity.
   const SenderNode& node = context.tree.nodes[id];
   seen.kernel = std::min(static_cast<float>(kernel / seen.above), node.max_radiosity / node.power);
   seen.angle = static_cast<float>(angle / seen.above);
-  seen.visibility = static_cast<float>(passed / kernel);
+  seen.passed = Spectrum(passed / kernel);
+  seen.visibility = luminance(seen.passed);
   seen.direction = to_float(normalize(direction));
   return seen;
 }
@@ -152,7 +158,7 @@ struct Judged {
   float form_factor_change = 0;  // (senders.2)
   float visibility_change = 0;   // (senders.3)
   float prior = 1;               // share of the sender expected to be seen
-  float visibility = 1;          // as the deciding samples saw it
+  Spectrum visibility{1.0F};     // as the deciding samples saw it
   float change() const { return std::max(form_factor_change, visibility_change); }
 };
 
@@ -164,13 +170,13 @@ Judged judge(const SenderNode& node, std::uint32_t id, std::uint32_t samples, co
   if (seen.above == 0) {
     // No receiver met faces the sender, but a point beside them may (the side of a window bar): unknown, so resampled.
     const float unknown = radiance * seen.hidden_kernel;
-    return {id, samples, unknown, unknown, 1, 0};
+    return {id, samples, unknown, unknown, 1, {}};
   }
   // N lines that all met the same say that one in N + 2 others may not.
   const float unseen = is_partial ? 1 : 1 / static_cast<float>(seen.above + 2);
   return {id, samples, radiance * kernel_change * std::max(seen.visibility, unseen),
           radiance * seen.kernel * unseen,
-          kLeastPrior + (1 - kLeastPrior) * seen.visibility, seen.visibility};
+          kLeastPrior + (1 - kLeastPrior) * seen.visibility, seen.passed};
 }
 
 /// Direct light makes the contrasts that people see, and an emitter that all receivers met see may be hidden from a point
@@ -212,7 +218,7 @@ void measure(const SenderNode& node, const Observation& seen, CriticalSender& se
   sender.direction = seen.direction;
   sender.direct = node.emitted_power * seen.kernel;
   sender.indirect = node.reflected_power * seen.kernel;
-  sender.visibility = seen.visibility;
+  sender.visibility = seen.passed;
 }
 
 }  // namespace
@@ -266,6 +272,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     }
   }
   result.lobes = lobes.lobes();
+  result.sky = visible_sky(context.world, receivers, combine(context.seed, kVertexKey, vertex, kSkyKey));
   return result;
 }
 

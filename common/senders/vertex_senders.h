@@ -24,15 +24,17 @@ struct CriticalSender {
   Vec3 direction{0, 0, 1};                 // unit, towards the sender
   Spectrum direct;                         // unoccluded irradiance at normal incidence, lux
   Spectrum indirect;
-  float visibility = 1;
+  Spectrum visibility{1.0F};               // by colour: panes
   SenderOutline outline;
   float prior = 1;                         // share of the sender expected to be visible, never near 0
 };
 
 /// What one grid vertex knows of all light: complete by itself. E_v(n) = sum of lobes + sum of critical senders.
+/// The sky's light is always resampled, by `sky`.
 struct VertexSenders {
   std::vector<Lobe> lobes;
   std::vector<CriticalSender> critical;
+  std::vector<float> sky;  // per sky patch: share expected to be visible, never near 0; empty without environment
 };
 
 /// Everything that vertex_senders() depends on.

@@ -81,15 +81,27 @@ std::string accuracy_line(const json& report) {
   return "relative error: undefined, the image is black" + audited;
 }
 
-std::string effects_table(const json& effects) {
+std::string effects_table(const json& plan) {
   std::string text = format("%-26s %-4s %-12s %-12s %-12s %s\n", "effect", "on", "value", "bound", "kind", "test");
-  for (const json& effect : effects) {
+  for (const json& effect : plan.value("effects", json::array())) {
     if (!effect.is_object()) continue;
     text += format("%-26s %-4s %-12s %-12s %-12s %s\n", effect.value("id", std::string("?")).c_str(),
                    effect.value("active", false) ? "on" : "off", short_text(effect.value("value", json())).c_str(),
                    short_text(effect.value("bound", json())).c_str(),
                    short_text(effect.value("bound_kind", json())).c_str(),
                    short_text(effect.value("test", json())).c_str());
+    const std::string note = effect.value("note", std::string());
+    if (!note.empty()) text += format("%-31s %s\n", "", note.c_str());
+  }
+  if (plan.contains("effects_bound")) {
+    const json& bound = plan["effects_bound"];
+    text += "what is off can change reflected light by at most " + short_text(bound.value("mean", json())) +
+            " cd/m^2 in the mean and " + short_text(bound.value("max", json())) + " at a pixel\n";
+  }
+  if (plan.contains("expected") && is_interval(plan["expected"].value("cpu_s", json()))) {
+    const json& cost = plan["expected"];
+    text += format("expected cost: %.1f to %.1f CPU s, of which the audit %.1f\n", cost["cpu_s"][0].get<double>(),
+                   cost["cpu_s"][1].get<double>(), number(cost, "audit_cpu_s"));
   }
   return text;
 }

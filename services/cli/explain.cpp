@@ -20,14 +20,15 @@ struct ExplainFlags {
 };
 
 Result<ExitCode> run_explain(const ExplainFlags& flags) {
-  const Result<RenderRequest> request = parse_request(flags.request);
+  Result<RenderRequest> request = parse_request(flags.request);
   if (!request) return usage_error(request.error());
+  locate_files(*request);
   RADFARM_TRY(const nlohmann::json plan, explain(flags.scene, *request));
   if (flags.json) {
     std::printf("%s\n", plan.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return ExitCode::kDone;
   }
-  std::fputs(effects_table(plan.value("effects", nlohmann::json::array())).c_str(), stdout);
+  std::fputs(effects_table(plan).c_str(), stdout);
   for (const nlohmann::json& warning : plan.value("warnings", nlohmann::json::array())) {
     if (warning.is_string()) std::printf("warning: %s\n", warning.get<std::string>().c_str());
   }

@@ -46,7 +46,7 @@ Status parse_size(const std::string& text, RenderRequest& request) {
 }
 
 Status parse_camera(const RequestFlags& flags, RenderRequest& request) {
-  const bool placed = flags.eye || flags.look_at || flags.up_vector || flags.fov;
+  const bool placed = flags.eye || flags.look_at || flags.up_vector || flags.fov || flags.orthographic;
   if (flags.camera && placed) return fail(Code::kInvalidArgument, "--camera and --eye exclude each other");
   if (!placed) {
     request.camera = RenderRequest::NamedCamera{flags.camera.value_or("")};
@@ -59,8 +59,23 @@ Status parse_camera(const RequestFlags& flags, RenderRequest& request) {
   if (flags.up_vector) {
     RADFARM_TRY(camera.up_vector, parse_vector("--up-vector", *flags.up_vector));
   }
+  if (flags.fov && flags.orthographic) return fail(Code::kInvalidArgument, "--fov and --orthographic exclude each other");
   camera.vertical_fov_degrees = flags.fov.value_or(camera.vertical_fov_degrees);
+  camera.orthographic_height = flags.orthographic;
   request.camera = camera;
+  return {};
+}
+
+Status parse_ies(const std::vector<std::string>& pairs, RenderRequest& request) {
+  for (const std::string& pair : pairs) {
+    const std::size_t equals = pair.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == pair.size()) {
+      return wrong("--ies", pair, "must be NAME=FILE, the name of a light and its IES file");
+    }
+    if (!request.ies.emplace(pair.substr(0, equals), pair.substr(equals + 1)).second) {
+      return wrong("--ies", pair, "the light has a file already");
+    }
+  }
   return {};
 }
 
@@ -72,6 +87,7 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--look-at", flags.look_at, "X,Y,Z: what it looks at");
   app.add_option("--up-vector", flags.up_vector, "X,Y,Z: which way is up in the image; default 0,1,0");
   app.add_option("--fov", flags.fov, "vertical field of view in degrees; default 45");
+  app.add_option("--orthographic", flags.orthographic, "parallel view this many metres high, instead of --fov");
   app.add_option("--size", flags.size, "WIDTHxHEIGHT in pixels; default 640 wide at the camera's aspect");
   app.add_option("--up", flags.up, "Y or Z: which axis of an OBJ file points up");
   app.add_option("--integrator", flags.integrator, "auto, gather, full-gather or path-trace");
@@ -82,6 +98,10 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--tile", flags.tile, "pixels a side of a task; never changes the image");
   app.add_flag("--no-audit", flags.no_audit, "do not measure the error");
   app.add_option("--effects", flags.effects, "+id,-id: force effects on or off; see `radfarm explain`");
+  app.add_option("--env", flags.env, "MAP.hdr, MAP.exr or sky:KEY=VALUE,...: light from all around; docs/sky.md");
+  app.add_option("--ies", flags.ies, "NAME=FILE: a light of the scene shines as an IES file says; may be repeated");
+  app.add_option("--lens-diameter", flags.lens_diameter, "metres; what is out of focus blurs; default 0, a pinhole");
+  app.add_option("--focus-distance", flags.focus_distance, "metres from the lens to what is sharp; default --look-at");
   app.add_option("--gather", flags.gather, "default");
   app.add_option("--criterion", flags.criterion, "uniform");
   flags.unbuilt.add_to(app);
@@ -109,8 +129,37 @@ Result<RenderRequest> parse_request(const RequestFlags& flags) {
   request.threshold = flags.threshold;
   request.audit = !flags.no_audit;
   request.effects = flags.effects;
+  request.env = flags.env;
+  RADFARM_TRY_STATUS(parse_ies(flags.ies, request));
+  request.lens_diameter = flags.lens_diameter;
+  request.focus_distance = flags.focus_distance;
   RADFARM_TRY_STATUS(validate(request));
   return request;
+}
+
+namespace {
+
+/// Calls `change` with every file name in the request.
+template <typename Change>
+void for_each_file(RenderRequest& request, const Change& change) {
+  if (!request.env.empty() && !request.env.starts_with("sky:")) change(request.env);
+  for (auto& [name, file] : request.ies) change(file);
+}
+
+}  // namespace
+
+std::vector<Attachment> attach_files(RenderRequest& request) {
+  std::vector<Attachment> attachments;
+  for_each_file(request, [&](std::string& file) {
+    const std::filesystem::path local = file;
+    file = "attached-" + std::to_string(attachments.size()) + "-" + local.filename().string();
+    attachments.push_back({local, file});
+  });
+  return attachments;
+}
+
+void locate_files(RenderRequest& request) {
+  for_each_file(request, [](std::string& file) { file = std::filesystem::absolute(file).string(); });
 }
 
 }  // namespace radfarm::cli

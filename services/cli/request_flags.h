@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -15,10 +17,12 @@ namespace radfarm::cli {
 /// The flags that shape an image, as typed; shared by render, submit and explain.
 struct RequestFlags {
   std::optional<std::string> camera, eye, look_at, up_vector, size;
-  std::optional<double> fov;
+  std::optional<double> fov, orthographic;
   std::string up = "Y", integrator = "auto", quality = "standard", effects, gather = "default", criterion = "uniform";
   std::optional<int> samples;
-  std::optional<float> threshold;
+  std::optional<float> threshold, lens_diameter, focus_distance;
+  std::string env;
+  std::vector<std::string> ies;
   std::uint64_t seed = 1;
   int tile = 32;
   bool no_audit = false;
@@ -29,5 +33,15 @@ void add_request_flags(CLI::App& app, RequestFlags& flags);
 
 /// INVALID_ARGUMENT names the flag and says what would be right.
 Result<RenderRequest> parse_request(const RequestFlags& flags);
+
+/// Files that a request names beside the scene: what each is called on this machine and in the job.
+struct Attachment {
+  std::filesystem::path local;
+  std::string in_job;
+};
+/// Changes the request to name its files as they are called in the job.
+std::vector<Attachment> attach_files(RenderRequest& request);
+/// Changes the request to name its files by absolute paths, for use on this machine.
+void locate_files(RenderRequest& request);
 
 }  // namespace radfarm::cli

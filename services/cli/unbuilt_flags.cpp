@@ -17,8 +17,6 @@ constexpr std::array kUnbuilt = {
     Unbuilt{"--radius", "", "use --integrator gather or path-trace"},
     Unbuilt{"--oracle", "", "leave it out"},
     Unbuilt{"--mesh", "", "leave it out"},
-    Unbuilt{"--env", "", "light the scene with emissive materials or KHR_lights_punctual"},
-    Unbuilt{"--ies", "", "use KHR_lights_punctual"},
     Unbuilt{"--aov", "", "beauty, emission, direct and indirect are always written"},
     Unbuilt{"--integrator", "radiosity", "use auto, gather, full-gather or path-trace"},
     Unbuilt{"--integrator", "paths", "use auto, gather, full-gather or path-trace"},

@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "base/utf8.h"
+#include "cli/request_flags.h"
 #include "rpc/blob_client.h"
 #include "scene/scene_files.h"
 
@@ -31,6 +32,15 @@ Result<std::vector<LocalFile>> open_files(const std::filesystem::path& scene) {
     files.push_back({{path.generic_string(), rpc::blob_ref(contents.bytes())}, std::move(contents)});
   }
   return files;
+}
+
+Status open_attachments(const std::vector<Attachment>& attachments, std::vector<LocalFile>& files) {
+  for (const Attachment& attachment : attachments) {
+    if (!is_utf8(attachment.in_job)) return fail(Code::kInvalidArgument, "a file's name is not UTF-8: " + attachment.in_job);
+    RADFARM_TRY(MappedFile contents, MappedFile::open(attachment.local));
+    files.push_back({{attachment.in_job, rpc::blob_ref(contents.bytes())}, std::move(contents)});
+  }
+  return {};
 }
 
 Status upload_missing(FarmClient& client, const std::vector<LocalFile>& files, Events& events) {
@@ -57,13 +67,15 @@ std::string new_request_id() {
 
 Result<JobStatus> submit_scene(FarmClient& client, const std::filesystem::path& scene, const RenderRequest& request,
                                Events& events) {
-  RADFARM_TRY(const std::vector<LocalFile> files, open_files(scene));
+  RADFARM_TRY(std::vector<LocalFile> files, open_files(scene));
+  RenderRequest in_job = request;
+  RADFARM_TRY_STATUS(open_attachments(attach_files(in_job), files));
   RADFARM_TRY_STATUS(upload_missing(client, files, events));
   JobSpec spec;
   spec.display_name = utf8_prefix(scene.filename().string(), 100);
   for (const LocalFile& local : files) spec.files.push_back(local.file);
   spec.entry_path = files.front().file.path;
-  spec.render_request_json = to_json(request).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  spec.render_request_json = to_json(in_job).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return client.create(new_request_id(), spec);
 }
 

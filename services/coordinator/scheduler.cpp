@@ -23,10 +23,24 @@ std::int64_t unix_seconds() {
   return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-Status check_request(const std::string& text) {
+/// What a request names must have come with the job: nothing from a client names a file of the coordinator's.
+Status check_attached(const RenderRequest& request, const JobSpec& spec) {
+  const auto check = [&](const std::string& name) -> Status {
+    const bool is_there = std::any_of(spec.files.begin(), spec.files.end(), [&](const auto& f) { return f.path == name; });
+    if (is_there) return {};
+    return fail(Code::kInvalidArgument, "spec.render_request_json: '" + name + "' is not one of spec.files");
+  };
+  if (!request.env.empty() && !request.env.starts_with("sky:")) RADFARM_TRY_STATUS(check(request.env));
+  for (const auto& [light, file] : request.ies) RADFARM_TRY_STATUS(check(file));
+  return {};
+}
+
+Status check_request(const JobSpec& spec) {
+  const std::string& text = spec.render_request_json;
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (json.is_discarded()) return fail(Code::kInvalidArgument, "spec.render_request_json: is not JSON");
   RADFARM_TRY(const RenderRequest request, render_request_from_json(json));
+  RADFARM_TRY_STATUS(check_attached(request, spec));
   return validate(request);
 }
 
@@ -76,7 +90,7 @@ Result<JobStatus> Scheduler::create(const std::string& request_id, const JobSpec
   if (request_id.empty() || request_id.size() > limits::kIdBytes) {
     return fail(Code::kInvalidArgument, "request_id: must have 1 to 100 bytes");
   }
-  RADFARM_TRY_STATUS(check_request(spec.render_request_json));
+  RADFARM_TRY_STATUS(check_request(spec));
   const std::lock_guard lock(mutex_);
   if (stopping_) return fail(Code::kUnavailable, "the coordinator is stopping");
   if (const Entry* const known = find_request(request_id)) {

@@ -92,7 +92,7 @@ int run(const char* path, int width) {
   const std::vector<VisibilityRay> rays = draw_rays(context, film, 4);
   const double raw_start = thread_cpu_seconds();
   double passed = 0;
-  for (const VisibilityRay& ray : rays) passed += static_cast<double>(world.caster.transmittance(ray.from, ray.to));
+  for (const VisibilityRay& ray : rays) passed += static_cast<double>(luminance(world.caster.transmittance(ray.from, ray.to)));
   const double raw_seconds = thread_cpu_seconds() - raw_start;
 
   const double gather_rate = million_per_second(static_cast<double>(counters.visibility_rays), gather_seconds);

@@ -58,6 +58,25 @@ TEST_F(JobsTest, HostilePathsAreRefused) {
   }
 }
 
+TEST_F(JobsTest, ARequestThatNamesAFileWhichIsNotAttachedIsRefused) {
+  RenderRequest with_map = small_request(), with_ies = small_request();
+  with_map.env = "/etc/hostname";
+  with_ies.ies = {{"lamp", "../lamp.ies"}};
+  for (const RenderRequest& request : {with_map, with_ies}) {
+    JobSpec spec = upload("{}");
+    spec.render_request_json = to_json(request).dump();
+    const Result<JobStatus> refused = client_->create("r", spec);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, Code::kInvalidArgument);
+    EXPECT_NE(refused.error().message.find("is not one of spec.files"), std::string::npos) << refused.error().message;
+  }
+  RenderRequest sky = small_request();
+  sky.env = "sky:overcast";
+  JobSpec spec = upload("{}");
+  spec.render_request_json = to_json(sky).dump();
+  EXPECT_TRUE(client_->create("sky", spec)) << "a sky needs no file";
+}
+
 TEST_F(JobsTest, ACancelledJobTellsItsWatchersAndKeepsNoLease) {
   RenderRequest request = small_request();
   request.samples = 100000;

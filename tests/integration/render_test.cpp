@@ -79,6 +79,91 @@ TEST_F(RenderTest, WrongFlagsAreExitCode2) {
   EXPECT_EQ(run({scene("cornell.gltf"), "-o", output("a.exr"), "--tile", "0"}), (Exit{false, 2}));
 }
 
+/// Renders of demonstration scenes, with light and lens from flags.
+class AddedLightTest : public RenderTest {
+ protected:
+  static std::string effect_scene(const std::string& name) { return scene("effects/" + name).string(); }
+  /// The report of a small render with more flags; an empty digest where it fails.
+  nlohmann::json rendered(const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> flags = {effect_scene(name), "-o",        output("a.exr"), "--report", output("a.json"),
+                                      "--size",           "32x24",     "--samples",     "4",        "--quality",
+                                      "preview",          "--no-audit"};
+    flags.insert(flags.end(), more.begin(), more.end());
+    EXPECT_EQ(run(flags), (Exit{false, 0}));
+    return report("a.json");
+  }
+  std::string digest(const std::string& name, const std::vector<std::string>& more) {
+    return rendered(name, more)["image"]["digest"];
+  }
+  /// 2 x 1 pixels of one grey, RGBE without runs.
+  std::string write_map(const std::string& name, unsigned char mantissa) {
+    const std::string m(1, static_cast<char>(mantissa)), pixel = m + m + m + "\x88";
+    EXPECT_TRUE(write_file_atomically(output(name), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + pixel + pixel));
+    return output(name);
+  }
+  /// What radfarm prints, and how it ends.
+  std::pair<std::string, Exit> printed(const std::vector<std::string>& flags) const {
+    ChildProcess child = std::move(*ChildProcess::start(program("radfarm"), flags, ChildProcess::Stdout::kCapture));
+    std::string text;
+    while (const Result<std::string> line = child.read_line(kPatience)) text += *line + "\n";
+    return {text, child.wait(kPatience).value_or(Exit{true, 0})};
+  }
+};
+
+TEST_F(AddedLightTest, ASkyThroughPanesGivesTheSameImageForAnyWorkersAndTiles) {
+  std::string first;
+  for (const char* workers : {"1", "2"}) {
+    for (const char* tile : {"8", "17"}) {
+      const std::string found =
+          digest("window.gltf", {"--env", "sky:overcast,lux=50", "--workers", workers, "--tile", tile});
+      if (first.empty()) first = found;
+      EXPECT_EQ(found, first) << workers << " workers, tiles of " << tile;
+    }
+  }
+  EXPECT_FALSE(first.empty());
+}
+
+TEST_F(AddedLightTest, AMapIsSentAlongAndUsed) {
+  const std::string dim = digest("open_plane_sky.gltf", {"--env", write_map("sky.hdr", 0x40)});
+  const std::string bright = digest("open_plane_sky.gltf", {"--env", write_map("other.hdr", 0x80)});
+  EXPECT_NE(dim, bright);
+  // Another file of the same contents is the same light.
+  EXPECT_EQ(digest("open_plane_sky.gltf", {"--env", write_map("copy.hdr", 0x80)}), bright);
+}
+
+TEST_F(AddedLightTest, APhotometryIsSentAlongAndUsed) {
+  const std::string even = digest("ies_lamp.gltf", {});
+  EXPECT_NE(digest("ies_lamp.gltf", {"--ies", "downlight=" + effect_scene("downlight.ies")}), even);
+}
+
+TEST_F(AddedLightTest, ALensBlurs) {
+  const std::string sharp = digest("depth_of_field.gltf", {});
+  const std::string blurred = digest("depth_of_field.gltf", {"--lens-diameter", "0.3", "--focus-distance", "3"});
+  EXPECT_NE(blurred, sharp);
+  EXPECT_NE(digest("depth_of_field.gltf", {"--lens-diameter", "0.3", "--focus-distance", "1"}), blurred);
+  EXPECT_EQ(digest("depth_of_field.gltf", {"--lens-diameter", "0", "--focus-distance", "3"}), sharp);
+}
+
+TEST_F(AddedLightTest, WhatIsWrongWithAFileIsExitCode3) {
+  const auto exit_of = [&](const std::string& flag, const std::string& value) {
+    return run({effect_scene("ies_lamp.gltf"), "-o", output("a.exr"), flag, value});
+  };
+  EXPECT_EQ(exit_of("--env", output("missing.hdr")), (Exit{false, 3}));
+  EXPECT_EQ(exit_of("--ies", "no such light=" + effect_scene("downlight.ies")), (Exit{false, 3}));
+  EXPECT_EQ(exit_of("--env", effect_scene("downlight.ies")), (Exit{false, 3}));
+  EXPECT_EQ(exit_of("--env", "sky:weather=fine"), (Exit{false, 3}));
+  EXPECT_EQ(exit_of("--ies", "downlight"), (Exit{false, 2}));
+  EXPECT_FALSE(std::filesystem::exists(output("a.exr")));
+}
+
+TEST_F(AddedLightTest, ExplainPrintsTheTableOfEffects) {
+  const auto [text, exit] = printed({"explain", effect_scene("window.gltf"), "--env", "sky:overcast,lux=50"});
+  EXPECT_EQ(exit, (Exit{false, 0}));
+  for (const char* id : {"panes", "environment", "interreflection", "depth_of_field", "caustics", "gloss", "bounces"}) {
+    EXPECT_NE(text.find(id), std::string::npos) << id << " in\n" << text;
+  }
+}
+
 class EndedRenderTest : public RenderTest {
  protected:
   /// A render that would take minutes, once its workers and a prepared scene are there.

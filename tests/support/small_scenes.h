@@ -19,7 +19,7 @@ class SceneMaker {
  public:
   std::uint32_t material(const Spectrum& reflectance, const Spectrum& emission = {}) {
     Material material;
-    material.reflectance = reflectance;
+    material.base_color = reflectance;
     material.emission = emission;
     scene_.materials.push_back(material);
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);

@@ -40,6 +40,37 @@ TEST(RequestFlags, FillTheRequest) {
   EXPECT_EQ(std::get<RenderRequest::NamedCamera>(request.camera).name_or_index, "1");
 }
 
+TEST(RequestFlags, AddLightAndALens) {
+  const RenderRequest request = *parse(
+      "--env sky:overcast,lux=50 --ies desk=a/b.ies --ies ceiling=c=d.ies --lens-diameter 0.02 --focus-distance 3");
+  EXPECT_EQ(request.env, "sky:overcast,lux=50");
+  EXPECT_EQ(request.ies, (std::map<std::string, std::string>{{"desk", "a/b.ies"}, {"ceiling", "c=d.ies"}}));
+  EXPECT_EQ(request.lens_diameter, 0.02F);
+  EXPECT_EQ(request.focus_distance, 3);
+  EXPECT_THAT(error_of("--ies desk"), HasSubstr("NAME=FILE"));
+  EXPECT_THAT(error_of("--ies =a.ies"), HasSubstr("NAME=FILE"));
+  EXPECT_THAT(error_of("--ies desk="), HasSubstr("NAME=FILE"));
+  EXPECT_THAT(error_of("--ies desk=a.ies --ies desk=b.ies"), HasSubstr("has a file already"));
+  EXPECT_THAT(error_of("--lens-diameter -1"), HasSubstr("--lens-diameter"));
+  EXPECT_THAT(error_of("--focus-distance 0"), HasSubstr("--focus-distance"));
+}
+
+TEST(RequestFlags, FilesAreCalledByNumberInTheJobAndByTheirWholePathHere) {
+  RenderRequest in_job = *parse("--env maps/sky.hdr --ies b=lamp.ies --ies a=other/lamp.ies"), here = in_job;
+  const std::vector<Attachment> attached = attach_files(in_job);
+  ASSERT_EQ(attached.size(), 3U);
+  EXPECT_EQ(in_job.env, "attached-0-sky.hdr");
+  EXPECT_EQ(attached[0].local, "maps/sky.hdr");
+  EXPECT_NE(in_job.ies["a"], in_job.ies["b"]) << "two files of one name";
+  for (const Attachment& file : attached) EXPECT_EQ(file.in_job.find('/'), std::string::npos);
+  locate_files(here);
+  EXPECT_EQ(here.env, std::filesystem::absolute("maps/sky.hdr"));
+  RenderRequest sky = *parse("--env sky:overcast");
+  EXPECT_TRUE(attach_files(sky).empty());
+  locate_files(sky);
+  EXPECT_EQ(sky.env, "sky:overcast");
+}
+
 TEST(RequestFlags, PlaceACamera) {
   const RenderRequest request = *parse("--eye 1,2.5,-3 --look-at 0,0,0 --fov 30");
   const auto& camera = std::get<RenderRequest::PlacedCamera>(request.camera);
@@ -63,7 +94,7 @@ TEST(RequestFlags, WrongValuesAreNamedWithWhatWouldBeRight) {
 
 TEST(RequestFlags, WhatIsNotBuiltIsRefusedAndNotIgnored) {
   for (const char* line : {"--error 2%", "--time 60s", "--photons 5", "--radius 1", "--oracle KL", "--mesh",
-                           "--env sky", "--ies a=b", "--aov normal", "--gather paper", "--criterion KL",
+                           "--aov normal", "--gather paper", "--criterion KL",
                            "--integrator radiosity", "--integrator paths", "--integrator photon-map"}) {
     const Result<RenderRequest> request = parse(line);
     ASSERT_FALSE(request) << line;

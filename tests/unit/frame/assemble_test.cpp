@@ -18,7 +18,7 @@ Settings odd_size() {
 PixelSums sums_of(int x, int y) {
   PixelSums sums;
   const auto value = static_cast<float>(100 * y + x);
-  for (int i = 0; i < 2; ++i) sums.add({Spectrum(value), Spectrum(1, 2, 3), Spectrum(0.5F)});
+  for (int i = 0; i < 2; ++i) sums.add({Spectrum(value), Spectrum(1, 2, 3), Spectrum(0.5F), Spectrum(0.25F)});
   return sums;
 }
 
@@ -82,18 +82,21 @@ TEST(Assemble, LayersAddUpToTheImage) {
 TEST(Assemble, DroppedSamplesAreCountedAndNeverBlack) {
   const float nan = std::nanf("");
   PixelSums sums;
-  sums.add({Spectrum(1.0F), Spectrum(1.0F), Spectrum(1.0F)});
-  for (const float bad : {nan, HUGE_VALF, -1.0F}) sums.add({Spectrum(), Spectrum(bad), Spectrum()});
+  sums.add({Spectrum(1.0F), Spectrum(1.0F), Spectrum(1.0F), Spectrum(1.0F)});
+  for (const float bad : {nan, HUGE_VALF, -1.0F}) {
+    sums.add({Spectrum(), Spectrum(bad), Spectrum(), Spectrum()});
+    sums.add({Spectrum(), Spectrum(), Spectrum(), Spectrum(bad)});
+  }
   EXPECT_EQ(sums.samples, 1U);
-  EXPECT_EQ(sums.dropped, 3U);
+  EXPECT_EQ(sums.dropped, 6U);
   Settings settings;
   settings.width = 2, settings.height = 1;
   PixelSums lost;
-  lost.add({Spectrum(nan), Spectrum(), Spectrum()});
+  lost.add({Spectrum(nan), Spectrum(), Spectrum(), Spectrum()});
   const Raster raster{{sums, lost}, {}};
-  EXPECT_EQ(dropped_share(raster), 0.8);
+  EXPECT_EQ(dropped_share(raster), 0.875);
   const Image image = to_image(settings, raster);
-  EXPECT_EQ(image.channels.at("R")[0], 3);
+  EXPECT_EQ(image.channels.at("R")[0], 4);
   EXPECT_TRUE(std::isnan(image.channels.at("R")[1]));
 }
 

@@ -15,7 +15,7 @@ RenderRequest unusual_request() {
   RenderRequest request;
   request.integrator = RenderRequest::Integrator::kPathTrace;
   request.quality = RenderRequest::Quality::kReference;
-  request.camera = RenderRequest::PlacedCamera{{0.1, 2, 3}, {4, 5, 1e-17}, {0, 0, 1}, 33.3};
+  request.camera = RenderRequest::PlacedCamera{{0.1, 2, 3}, {4, 5, 1e-17}, {0, 0, 1}, 33.3, 2.5};
   request.width = 320;
   request.height = 200;
   request.up = RenderRequest::UpAxis::kZ;
@@ -24,6 +24,10 @@ RenderRequest unusual_request() {
   request.samples = 3;
   request.threshold = 0.1F;
   request.audit = false;
+  request.env = "maps/sky.hdr";
+  request.ies = {{"desk", "a.ies"}, {"ceiling", "b.ies"}};
+  request.lens_diameter = 0.02F;
+  request.focus_distance = 3;
   request.effects = std::string("+textures,-masking");
   return request;
 }
@@ -65,6 +69,10 @@ TEST(RenderRequest, WrongTypesNameTheKeyAndWhatWouldBeRight) {
   EXPECT_THAT(message_of(R"({"seed": -1})"), testing::HasSubstr("seed"));
   EXPECT_THAT(message_of(R"({"audit": 1})"), testing::HasSubstr("audit: must be true or false"));
   EXPECT_THAT(message_of(R"({"threshold": 1e300})"), testing::HasSubstr("threshold"));
+  EXPECT_THAT(message_of(R"({"ies": ["lamp.ies"]})"), testing::HasSubstr("ies: must be an object"));
+  EXPECT_THAT(message_of(R"({"ies": {"desk": 7}})"), testing::HasSubstr("ies.desk"));
+  EXPECT_THAT(message_of(R"({"env": 7})"), testing::HasSubstr("env"));
+  EXPECT_THAT(message_of(R"({"lens_diameter": "wide"})"), testing::HasSubstr("lens_diameter"));
   EXPECT_THAT(message_of(R"({"camera": "main"})"), testing::HasSubstr("camera"));
   EXPECT_THAT(message_of(R"({"camera": {"eye": [1, 2], "look_at": [0, 0, 0]}})"), testing::HasSubstr("camera.eye"));
   EXPECT_THAT(message_of(R"({"camera": {"eye": [1, 2, 3]}})"), testing::HasSubstr("look_at"));
@@ -93,9 +101,14 @@ struct Invalid {
   void (*change)(RenderRequest& request);
 };
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+RenderRequest::PlacedCamera placed(const Vec3d& eye, const Vec3d& look_at, const Vec3d& up = {0, 1, 0}, double fov = 45,
+                                   std::optional<double> orthographic_height = {}) {
+  return {eye, look_at, up, fov, orthographic_height};
+}
+
 TEST(RenderRequest, ValuesOutOfRangeNameTheirFlag) {
-  using Placed = RenderRequest::PlacedCamera;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Invalid> cases = {
       {"--size", [](RenderRequest& r) { r.width = 0; }},
       {"--size", [](RenderRequest& r) { r.height = 16385; }},
@@ -103,12 +116,22 @@ TEST(RenderRequest, ValuesOutOfRangeNameTheirFlag) {
       {"--samples", [](RenderRequest& r) { r.samples = -1; }},
       {"--threshold", [](RenderRequest& r) { r.threshold = 0.0F; }},
       {"--threshold", [](RenderRequest& r) { r.threshold = std::numeric_limits<float>::quiet_NaN(); }},
-      {"--eye", [](RenderRequest& r) { r.camera = Placed{{kNan, 0, 0}, {1, 0, 0}}; }},
-      {"--look-at", [](RenderRequest& r) { r.camera = Placed{{1, 0, 0}, {1, 0, 0}}; }},
-      {"--up-vector", [](RenderRequest& r) { r.camera = Placed{{0, 0, 0}, {0, 2, 0}}; }},
-      {"--up-vector", [](RenderRequest& r) { r.camera = Placed{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}; }},
-      {"--fov", [](RenderRequest& r) { r.camera = Placed{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 180}; }},
-      {"--fov", [](RenderRequest& r) { r.camera = Placed{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, kNan}; }},
+      {"--eye", [](RenderRequest& r) { r.camera = placed({kNan, 0, 0}, {1, 0, 0}); }},
+      {"--look-at", [](RenderRequest& r) { r.camera = placed({1, 0, 0}, {1, 0, 0}); }},
+      {"--up-vector", [](RenderRequest& r) { r.camera = placed({0, 0, 0}, {0, 2, 0}); }},
+      {"--up-vector", [](RenderRequest& r) { r.camera = placed({0, 0, 0}, {1, 0, 0}, {0, 0, 0}); }},
+      {"--fov", [](RenderRequest& r) { r.camera = placed({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 180); }},
+      {"--fov", [](RenderRequest& r) { r.camera = placed({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, kNan); }},
+      {"--orthographic", [](RenderRequest& r) { r.camera = placed({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 45, 0); }},
+      {"--orthographic", [](RenderRequest& r) { r.camera = placed({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 45, kNan); }},
+      {"--lens-diameter", [](RenderRequest& r) { r.lens_diameter = -1.0F; }},
+      {"--lens-diameter", [](RenderRequest& r) { r.lens_diameter = std::numeric_limits<float>::quiet_NaN(); }},
+      {"--focus-distance", [](RenderRequest& r) { r.focus_distance = 0.0F; }},
+      {"--focus-distance", [](RenderRequest& r) { r.focus_distance = std::numeric_limits<float>::infinity(); }},
+      {"--env", [](RenderRequest& r) { r.env = std::string(5000, 'x'); }},
+      {"--ies", [](RenderRequest& r) {
+         for (int i = 0; i < 1001; ++i) r.ies[std::to_string(i)] = "lamp.ies";
+       }},
       {"--camera", [](RenderRequest& r) { r.camera = RenderRequest::NamedCamera{std::string(5000, 'x')}; }},
       {"--effects", [](RenderRequest& r) { r.effects = std::string("textures"); }},
       {"--effects", [](RenderRequest& r) { r.effects = std::string("+"); }},

@@ -11,8 +11,10 @@ View example() {
   View view;
   view.camera.position = {1, 2, 3};
   view.camera.vertical_fov = 0.5F;
+  view.camera.lens_diameter = 0.02F, view.camera.focus_distance = 3;
   view.settings.width = 640, view.settings.height = 480;
   view.settings.seed = 18446744073709551615U;
+  view.settings.effects_off = 0x1234, view.settings.exactly_off = 0x1030;
   view.settings.senders.threshold = 0.25F;
   view.facts = R"({"warnings": []})";
   view.grid = {std::byte{1}, std::byte{2}, std::byte{255}};
@@ -25,6 +27,10 @@ TEST(View, RoundTripKeepsEveryByte) {
   ASSERT_TRUE(view) << view.error().message;
   EXPECT_EQ(encode(*view), bytes);
   EXPECT_EQ(view->camera.position, Vec3(1, 2, 3));
+  EXPECT_EQ(view->camera.lens_diameter, 0.02F);
+  EXPECT_EQ(view->camera.focus_distance, 3);
+  EXPECT_EQ(view->settings.effects_off, 0x1234U);
+  EXPECT_EQ(view->settings.exactly_off, 0x1030U);
   EXPECT_EQ(view->settings.seed, example().settings.seed);
   EXPECT_EQ(view->facts, example().facts);
   EXPECT_EQ(view->grid, example().grid);

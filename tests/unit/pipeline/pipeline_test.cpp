@@ -210,6 +210,45 @@ TEST(Pipeline, WithoutInterreflectionNothingIsSolvedAndDirectLightIsTheSame) {
   EXPECT_EQ(mean_of(direct.image, "indirect.G"), 0);
 }
 
+TEST(Pipeline, TheSkyOfAClosedSceneCostsNothing) {
+  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kPathTrace}) {
+    RenderRequest request = small_request();
+    request.integrator = integrator;
+    request.audit = false;
+    const std::string dark = image_digest(render(test::own_scene_path("effects/closed_box_env"), request).image);
+    request.env = "sky:overcast";
+    const Finished finished = render(test::own_scene_path("effects/closed_box_env"), request);
+    EXPECT_EQ(image_digest(finished.image), dark);
+    EXPECT_GT((*finished.report)["effects_bound"]["mean"], 0) << "a small hole may have been missed";
+  }
+}
+
+TEST(Pipeline, WhatIsForcedOffShowsInTheAudit) {
+  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kPathTrace}) {
+    RenderRequest request = small_request();
+    request.integrator = integrator;
+    request.samples = 16;
+    request.effects = "-gloss";  // a mirror that fills much of the view
+    const Finished finished = render(test::own_scene_path("effects/mirror"), request);
+    const json& error = (*finished.report)["accuracy"]["relative_rmse_ci95"];
+    EXPECT_GT(error[0], 0.1) << error.dump();
+  }
+}
+
+TEST(Pipeline, ALensIsPartOfTheView) {
+  RenderRequest request = small_request();
+  request.audit = false;
+  request.lens_diameter = 0.3F;
+  request.focus_distance = 1;
+  const Finished blurred = render(test::own_scene_path("effects/depth_of_field"), request);
+  request.effects = "-depth_of_field";
+  const std::string off = image_digest(render(test::own_scene_path("effects/depth_of_field"), request).image);
+  request.effects.clear();
+  request.lens_diameter = 0.0F;
+  EXPECT_NE(image_digest(blurred.image), off);
+  EXPECT_EQ(image_digest(render(test::own_scene_path("effects/depth_of_field"), request).image), off);
+}
+
 TEST(Pipeline, RefusesTasksThatTheViewDoesNotHaveAndResultsThatAreMissing) {
   RenderRequest request = small_request();
   request.audit = false;

@@ -22,10 +22,10 @@ Hierarchy all_sides(const World& world) {
 
 TEST(Links, PunctualSendersAreTheirOwnNumbers) {
   for (const std::uint32_t light : {0U, 1U, 77U, 1000000U}) {
-    EXPECT_TRUE(is_punctual(punctual_sender(light)));
-    EXPECT_EQ(punctual_index(punctual_sender(light)), light);
-    EXPECT_NE(punctual_sender(light), kNone);
-    EXPECT_FALSE(is_punctual(light));
+    EXPECT_TRUE(is_source(source_sender(light)));
+    EXPECT_EQ(source_index(source_sender(light)), light);
+    EXPECT_NE(source_sender(light), kNone);
+    EXPECT_FALSE(is_source(light));
   }
 }
 
@@ -101,7 +101,7 @@ TEST(Links, ThePointLightsMeanOverTheFloorIsItsFlux) {
     double sum = 0;
     for (const std::uint32_t leaf : h.leaves) {
       if (h.patches[h.nodes[leaf].patch].normal.y < 0) continue;
-      sum += static_cast<double>(evaluate_punctual(world, h, leaf, 0, 64, seed).emitted * h.nodes[leaf].area);
+      sum += static_cast<double>(evaluate_source(world, h, leaf, 0, 64, seed).emitted * h.nodes[leaf].area);
     }
     flux.add(sum);
   }

@@ -55,7 +55,7 @@ TEST(Refine, StartsWithTheRootAndEveryPunctualLight) {
   const std::vector<Link> links = initial_links(world, h);
   ASSERT_EQ(links.size(), 2U);
   EXPECT_EQ(links[0].receiver, links[0].sender);
-  EXPECT_EQ(links[1].sender, punctual_sender(0));
+  EXPECT_EQ(links[1].sender, source_sender(0));
   EXPECT_TRUE(initial_links(world, Hierarchy()).empty());
 }
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/random.h"
 #include "support/small_scenes.h"
 #include "unit/scene/scene_builder.h"
 
@@ -19,6 +20,41 @@ TEST(Camera, TheCentreRayRunsForwardAndCornersSpanTheFieldOfView) {
   expect_near(camera_ray(camera, 200, 100, 100, 50).direction, {0, 0, -1});
   expect_near(camera_ray(camera, 200, 100, 0, 0).direction, normalize(Vec3(-2, 1, -1)));
   expect_near(camera_ray(camera, 200, 100, 200, 100).direction, normalize(Vec3(2, -1, -1)));
+}
+
+TEST(Camera, RaysThroughTheLensMeetAtThePlaneOfFocus) {
+  Camera camera = *place_camera({1, 2, 3}, {4, 1, -5}, {0, 1, 0}, kPi / 2);
+  camera.lens_diameter = 0.5F;
+  camera.focus_distance = 4;
+  RandomSequence random(1);
+  for (const Vec2& film : {Vec2(100, 50), Vec2(0, 0), Vec2(173, 91)}) {
+    const Ray pinhole = camera_ray(camera, 200, 100, film.x, film.y);
+    const Vec3 focus = pinhole.origin + pinhole.direction * (4 / dot(pinhole.direction, camera.forward));
+    EXPECT_NEAR(dot(focus - camera.position, camera.forward), 4, 1e-5F);
+    for (int i = 0; i < 100; ++i) {
+      const float u = random.uniform();
+      const Ray ray = camera_ray(camera, 200, 100, film.x, film.y, {u, random.uniform()});
+      const Vec3 across = ray.origin - camera.position;
+      EXPECT_LE(length(across), 0.25F * (1 + 1e-6F));
+      EXPECT_NEAR(dot(across, camera.forward), 0, 1e-6F);
+      EXPECT_NEAR(length(ray.direction), 1, 1e-6F);
+      EXPECT_LT(length(cross(focus - ray.origin, ray.direction)), 4e-6F);
+    }
+  }
+}
+
+TEST(Camera, WithoutALensIsThePinholeBitForBit) {
+  Camera camera = *place_camera({1, 2, 3}, {4, 1, -5}, {0, 1, 0}, 0.7F);
+  for (const auto kind : {Camera::Kind::kPerspective, Camera::Kind::kOrthographic}) {
+    camera.kind = kind;
+    camera.lens_diameter = kind == Camera::Kind::kPerspective ? 0.0F : 1.0F;
+    for (float x = 0.3F; x < 200; x += 7.1F) {
+      const Ray pinhole = camera_ray(camera, 200, 100, x, x / 3);
+      const Ray lens = camera_ray(camera, 200, 100, x, x / 3, {0.9F, 0.1F});
+      EXPECT_EQ(pinhole.origin, lens.origin);
+      EXPECT_EQ(pinhole.direction, lens.direction);
+    }
+  }
 }
 
 TEST(Camera, OrthographicRaysAreParallel) {

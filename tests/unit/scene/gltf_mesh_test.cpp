@@ -101,12 +101,75 @@ TEST(GltfMesh, MorphTargetsApplyTheirDefaultWeights) {
   EXPECT_DOUBLE_EQ(test::placed(*scene, 0, 1).x, 3);
 }
 
-TEST(GltfMesh, APrimitiveWithoutMaterialIsWhite) {
+TEST(GltfMesh, APrimitiveWithoutMaterialIsRoughWhiteMetalAsGltfSays) {
   GltfBuilder gltf = triangle();
   gltf.document["meshes"][0]["primitives"][0].erase("material");
   const Result<Scene> scene = load(gltf.document);
   ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_EQ(scene->materials[scene->meshes[0].material].reflectance, Spectrum(1));
+  const Material& material = scene->materials[scene->meshes[0].material];
+  EXPECT_EQ(material.base_color, Spectrum(1));
+  EXPECT_EQ(material.metallic, 1);
+  EXPECT_EQ(material.roughness, 1);
+}
+
+/// The triangle with normals, coordinates and tangents, and a material with a normal texture.
+GltfBuilder with_tangents(const std::vector<float>& tangents) {
+  GltfBuilder gltf = triangle();
+  nlohmann::json& attributes = gltf.document["meshes"][0]["primitives"][0]["attributes"];
+  attributes["NORMAL"] = gltf.add_vec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
+  attributes["TANGENT"] = gltf.add(tangents, 5126, "VEC4", 3);
+  attributes["TEXCOORD_0"] = gltf.add<float>({0, 0, 1, 0, 0, 1}, 5126, "VEC2", 3);
+  gltf.document["images"] = {{{"uri", "data:image/png;base64," + test::base64(test::tiny_png())}}};
+  gltf.document["textures"] = {{{"source", 0}}};
+  gltf.document["materials"][0]["normalTexture"] = {{"index", 0}};
+  return gltf;
+}
+
+TEST(GltfMesh, TangentsBecomeUnitWhereAMaterialNeedsThem) {
+  GltfBuilder gltf = with_tangents({2, 0, 0, 1, 0, 3, 0, -1, 1, 0, 0, 1});
+  Result<Scene> scene = load(gltf.document);
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->meshes[0].tangents.size(), 3U);
+  EXPECT_THAT(scene->meshes[0].tangents[0], ElementsAre(1, 0, 0, 1));
+  EXPECT_THAT(scene->meshes[0].tangents[1], ElementsAre(0, 1, 0, -1));
+  gltf.document["materials"][0].erase("normalTexture");
+  scene = load(gltf.document);
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_TRUE(scene->meshes[0].tangents.empty());
+  EXPECT_TRUE(scene->meshes[0].uv[0].empty());
+}
+
+TEST(GltfMesh, TangentsThatAreNoneAreAllDropped) {
+  for (const std::vector<float>& bad : {std::vector<float>{1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1},
+                                        std::vector<float>{1, 0, 0, 1, 1, 0, 0, 0.5F, 1, 0, 0, 1}}) {
+    const Result<Scene> scene = load(with_tangents(bad).document);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene->meshes[0].tangents.empty());
+    EXPECT_TRUE(scene->notes.empty());
+  }
+}
+
+TEST(GltfMesh, QuantizedAttributesAreReadAsTheyAreScaled) {
+  GltfBuilder gltf = with_tangents(std::vector<float>(12, 1.0F));
+  gltf.document["extensionsRequired"] = {"KHR_mesh_quantization"};
+  nlohmann::json& attributes = gltf.document["meshes"][0]["primitives"][0]["attributes"];
+  const auto add_normalized = [&](const auto& values, int type, const char* shape) {
+    const auto accessor = gltf.add(values, type, shape, 3);
+    gltf.document["accessors"].back()["normalized"] = true;
+    return accessor;
+  };
+  attributes["POSITION"] = gltf.add<std::int16_t>({-5, 0, 0, 7, 0, 0, 0, 300, 0}, 5122, "VEC3", 3);
+  attributes["NORMAL"] = add_normalized(std::vector<std::int8_t>{0, 0, 127, 0, 0, 127, 0, 0, 127}, 5120, "VEC3");
+  attributes["TEXCOORD_0"] = add_normalized(std::vector<std::uint16_t>{0, 65535, 0, 0, 65535, 0}, 5123, "VEC2");
+  attributes["TANGENT"] = add_normalized(
+      std::vector<std::int8_t>{127, 0, 0, 127, 127, 0, 0, -127, 127, 0, 0, 127}, 5120, "VEC4");
+  const Result<Scene> scene = load(gltf.document);
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_NEAR(test::placed(*scene, 0, 0).x, -5, 1e-5);
+  EXPECT_NEAR(test::placed(*scene, 0, 2).y, 300, 1e-4);
+  EXPECT_EQ(scene->meshes[0].normals[0], Vec3(0, 0, 1));
+  EXPECT_EQ(scene->meshes[0].uv[0][0], Vec2(0, 1));
+  EXPECT_THAT(scene->meshes[0].tangents[1], ElementsAre(1, 0, 0, -1));
 }
 
 }  // namespace

@@ -108,6 +108,21 @@ TEST(GltfNodes, PunctualLightsShineAlongTheirNodesMinusZ) {
   EXPECT_THAT(scene.notes, Contains(HasSubstr("range")));
 }
 
+TEST(GltfNodes, PunctualLightsAreNamedAndKnowTheirNodesRight) {
+  const Scene scene = scene_with_nodes(
+      R"([{"name": "hall", "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476], "scale": [2, 3, 4],
+           "extensions": {"KHR_lights_punctual": {"light": 0}}},
+          {"name": "stairs", "scale": [0, 1, 1], "extensions": {"KHR_lights_punctual": {"light": 1}}}])",
+      R"({"scenes": [{"nodes": [0, 1]}], "extensions": {"KHR_lights_punctual": {"lights": [
+          {"type": "point", "name": "lamp"}, {"type": "point"}]}}})");
+  ASSERT_EQ(scene.lights.size(), 2U);
+  EXPECT_EQ(scene.lights[0].name, "lamp");
+  expect_at(to_double(scene.lights[0].right), 0, 1, 0);
+  EXPECT_EQ(scene.lights[1].name, "stairs");
+  EXPECT_NEAR(dot(scene.lights[1].right, scene.lights[1].direction), 0, 1e-6);
+  EXPECT_NEAR(length(scene.lights[1].right), 1, 1e-6);
+}
+
 TEST(GltfPose, NodesStandWhereTheFirstKeyPutsThem) {
   test::GltfBuilder gltf = triangle();
   const auto times = gltf.add<float>({0, 1}, 5126, "SCALAR", 2);

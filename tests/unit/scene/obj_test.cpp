@@ -30,7 +30,7 @@ std::string refusal(const Result<Scene>& scene) { return scene ? "loads" : scene
 TEST(Obj, FacesWithoutMaterialAreGreyWithANote) {
   const Result<Scene> scene = load_text(kTriangle + "f 1 2 3\n");
   ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_EQ(scene->materials[scene->meshes[0].material].reflectance, Spectrum(0.5F));
+  EXPECT_EQ(scene->materials[scene->meshes[0].material].base_color, Spectrum(0.5F));
   EXPECT_THAT(scene->notes, Contains(HasSubstr("without a material")));
 }
 
@@ -49,23 +49,12 @@ TEST(Obj, PolygonsAreCutOnce) {
 TEST(Obj, EachGroupAndMaterialIsAMeshOfItsOwn) {
   const Result<Scene> scene = load_with_materials(
       "newmtl a\nKd 1 1 1\nnewmtl b\nKd 0 0 0\n",
-      "g one\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\nusemtl a\nf 1 3 2\ng two\nf 1 2 3\n");
+      "v 0 0 1\ng one\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\nusemtl a\nf 1 4 2\ng two\nf 1 2 3\n");
   ASSERT_TRUE(scene) << scene.error().message;
   ASSERT_EQ(scene->meshes.size(), 3U);
   EXPECT_EQ(scene->meshes[0].triangles.size(), 2U);
   EXPECT_EQ(scene->meshes[1].material, 1U);
   EXPECT_EQ(scene->meshes[2].name, "two");
-}
-
-TEST(Obj, SpecularReflectanceIsFoldedInKeepingTheHue) {
-  const Result<Scene> scene = load_with_materials("newmtl a\nKd 0.8 0.4 0\nKs 0.8 0.4 0\nKe 5 6 7\nd 0.5\n");
-  ASSERT_TRUE(scene) << scene.error().message;
-  const Material& material = scene->materials[0];
-  EXPECT_EQ(material.reflectance, Spectrum(1, 0.5F, 0));
-  EXPECT_TRUE(material.folds_gloss_into_diffuse);
-  EXPECT_EQ(material.emission, Spectrum(5, 6, 7));
-  EXPECT_EQ(material.alpha_mode, Material::Alpha::kBlend);
-  EXPECT_EQ(material.alpha, 0.5F);
 }
 
 TEST(Obj, TexturesAreReadAndVIsTurnedAround) {
@@ -85,7 +74,7 @@ TEST(Obj, MaterialFaultsNameFileLineAndMaterial) {
 TEST(Obj, AMissingLibraryIsANoteAndItsMaterialsAreGrey) {
   const Result<Scene> scene = load_text("# hello\nmtllib none.mtl\nusemtl oak\n" + kTriangle + "f 1 2 3\n");
   ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_EQ(scene->materials[scene->meshes[0].material].reflectance, Spectrum(0.5F));
+  EXPECT_EQ(scene->materials[scene->meshes[0].material].base_color, Spectrum(0.5F));
   EXPECT_THAT(scene->notes, Contains(HasSubstr("Line 2: material library 'none.mtl' does not exist")));
   EXPECT_THAT(scene->notes, Contains(HasSubstr("Material 'oak' is not defined")));
 }
@@ -96,7 +85,7 @@ TEST(Obj, OfSeveralLibrariesTheOnesThatAreThereAreRead) {
   const Result<Scene> scene =
       load_scene(folder.write("scene.obj", "mtllib a.mtl b.mtl\nusemtl red\n" + kTriangle + "f 1 2 3\n"));
   ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_EQ(scene->materials[scene->meshes[0].material].reflectance, Spectrum(1, 0, 0));
+  EXPECT_EQ(scene->materials[scene->meshes[0].material].base_color, Spectrum(1, 0, 0));
   EXPECT_THAT(scene->notes, Contains(HasSubstr("'a.mtl' does not exist")));
 }
 

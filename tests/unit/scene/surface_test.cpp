@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "math/sampling.h"
+#include "scene/texture_uses.h"
 #include "support/small_scenes.h"
 
 namespace radfarm {
@@ -75,6 +76,227 @@ TEST(Surfaces, HitAtStaysInTheTriangle) {
     worst = std::max(worst, hit.u + hit.v);
   }
   EXPECT_EQ(outside, 0U) << "u + v up to " << worst;
+}
+
+// Codes of 8 bits through sRGB-free lookups of 1 x 1 textures: a few roundings.
+constexpr float kCodeRounding = 16 * 0x1p-24F;
+
+using Texel = std::array<std::uint8_t, 4>;
+
+Texture texture_of(std::vector<Texel> texels) {
+  Texture texture{static_cast<std::uint32_t>(texels.size()), 1, false, Texture::Wrap::kClamp, Texture::Wrap::kClamp, {}};
+  texture.texels = std::move(texels);
+  return texture;
+}
+
+/// A unit square in the xy-plane, front to +z, as an image hangs on a wall: u to +x, v down.
+Scene picture(const Texture& texture) {
+  test::SceneMaker maker;
+  maker.polygon(maker.material(Spectrum(0.5F)), {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  Scene scene = maker.take();
+  scene.textures.push_back(texture);
+  scene.meshes[0].uv[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  return scene;
+}
+
+SurfacePoint point_of(const Scene& scene, float u = 0.25F, float v = 0.25F) {
+  return Surfaces(scene).at({0, 0, u, v, 0});
+}
+
+void expect_near(const Spectrum& a, const Spectrum& b) {
+  EXPECT_NEAR(a.r, b.r, kCodeRounding);
+  EXPECT_NEAR(a.g, b.g, kCodeRounding);
+  EXPECT_NEAR(a.b, b.b, kCodeRounding);
+}
+
+// Tilted to +u and a little up: (1, 0.0039, 0.0039) and its like; what is left of the codes' steps is 0.4 degrees.
+constexpr Texel kTowardsU{255, 128, 128, 255};
+constexpr Texel kUpTheImage{128, 255, 128, 255};
+constexpr float kTilted = 0.99F;
+
+Scene bumpy(const Texel& texel) {
+  Scene scene = picture(texture_of({texel}));
+  scene.materials[0].normal_texture.texture = 0;
+  return scene;
+}
+
+Vec3 normal_of(const Scene& scene) { return point_of(scene).shading_normal; }
+
+void add_tangents(Scene& scene, const Vec3& along, float handedness) {
+  for (Mesh& mesh : scene.meshes) {
+    mesh.tangents.assign(mesh.positions.size(), {along.x, along.y, along.z, handedness});
+  }
+}
+
+void mirror_x(Scene& scene) { scene.instances[0].to_world[0][0] = -1; }
+
+TEST(NormalMap, TurnsTheNormalTowardsGrowingUAndUpTheImage) {
+  EXPECT_GT(normal_of(bumpy(kTowardsU)).x, kTilted);
+  EXPECT_GT(normal_of(bumpy(kUpTheImage)).y, kTilted);
+  EXPECT_EQ(point_of(bumpy(kTowardsU)).geometric_normal, Vec3(0, 0, 1));
+  EXPECT_EQ(point_of(bumpy(kTowardsU)).tangent, Vec3(1, 0, 0));
+}
+
+TEST(NormalMap, DoesTheSameWithTangentsFromTheFile) {
+  for (const auto& [texel, expected] : {std::pair(kTowardsU, Vec3(1, 0, 0)), std::pair(kUpTheImage, Vec3(0, 1, 0))}) {
+    Scene scene = bumpy(texel);
+    add_tangents(scene, {1, 0, 0}, 1);
+    EXPECT_GT(dot(normal_of(scene), expected), kTilted);
+  }
+}
+
+TEST(NormalMap, FollowsTheFilesTangentsAndHandedness) {
+  Scene scene = bumpy(kTowardsU);
+  add_tangents(scene, {0, 1, 0}, 1);
+  EXPECT_GT(normal_of(scene).y, kTilted);
+  scene = bumpy(kUpTheImage);
+  add_tangents(scene, {1, 0, 0}, -1);
+  EXPECT_LT(normal_of(scene).y, -kTilted);
+}
+
+TEST(NormalMap, MirrorsWithItsInstance) {
+  for (const bool has_tangents : {false, true}) {
+    for (const auto& [texel, expected] : {std::pair(kTowardsU, Vec3(-1, 0, 0)), std::pair(kUpTheImage, Vec3(0, 1, 0))}) {
+      Scene scene = bumpy(texel);
+      if (has_tangents) add_tangents(scene, {1, 0, 0}, 1);
+      mirror_x(scene);
+      EXPECT_EQ(point_of(scene).geometric_normal, Vec3(0, 0, 1));
+      EXPECT_GT(dot(normal_of(scene), expected), kTilted) << has_tangents;
+    }
+  }
+}
+
+TEST(NormalMap, OnMirroredCoordinatesTurnsTowardsTheirGrowingU) {
+  for (const auto& [texel, expected] : {std::pair(kTowardsU, Vec3(-1, 0, 0)), std::pair(kUpTheImage, Vec3(0, 1, 0))}) {
+    Scene scene = bumpy(texel);
+    for (Vec2& uv : scene.meshes[0].uv[0]) uv.x = 1 - uv.x;
+    EXPECT_GT(dot(normal_of(scene), expected), kTilted);
+  }
+}
+
+TEST(NormalMap, ScalesItsSlopeAndRoundsFlatCodesToNothing) {
+  Scene scene = bumpy({255, 128, 255, 255});  // 45 degrees
+  scene.materials[0].normal_scale = 0.5F;
+  EXPECT_NEAR(std::atan2(normal_of(scene).x, normal_of(scene).z), std::atan(0.5F), 1e-5F);
+  EXPECT_GT(normal_of(bumpy({128, 128, 255, 255})).z, 0.9999F);
+}
+
+TEST(NormalMap, NeverTurnsTheNormalBelowTheSurface) {
+  EXPECT_EQ(normal_of(bumpy({255, 128, 0, 255})), Vec3(0, 0, 1));
+}
+
+TEST(NormalMap, TurnsWithTheSideThatIsSeen) {
+  SurfacePoint point = point_of(bumpy(kTowardsU));
+  face(point, {0, 0, -1});
+  EXPECT_FALSE(point.is_front);
+  EXPECT_LT(point.shading_normal.x, -kTilted);
+}
+
+TEST(TextureTransform, MovesScalesAndTurnsTheCoordinates) {
+  Scene scene = picture(texture_of({{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {255, 255, 255, 255}}));
+  scene.materials[0].base_color = Spectrum(1.0F);
+  TextureUse& use = scene.materials[0].base_texture;
+  use.texture = 0;
+  // Hit (0.1, 0.025) of the triangle (0,1) (1,1) (1,0): uv = (0.125, 0.975), the middle of texel 0.
+  const auto color = [&] { return Surfaces(scene).matter(point_of(scene, 0.1F, 0.025F)).base; };
+  expect_near(color(), {1, 0, 0});
+  use.map = {1, 0, 0.5F, 0, 1, 0};
+  expect_near(color(), {0, 0, 1});
+  use.map = {3, 0, 0, 0, 1, 0};
+  expect_near(color(), {0, 1, 0});
+  use.map = {0, 1, -0.1F, 1, 0, 0};  // u' = v - 0.1 = 0.875
+  expect_near(color(), {1, 1, 1});
+}
+
+TEST(TextureTransform, IsOfItsUseAndItsUvSetAlone) {
+  Scene scene = picture(texture_of({{0, 0, 0, 0}, {255, 255, 255, 255}}));
+  scene.meshes[0].uv[1].assign(4, Vec2(0.75F, 0.5F));
+  Material& m = scene.materials[0];
+  m.specular = m.clearcoat = 1;
+  m.specular_texture = {0, 0, {0, 0, 0.25F, 0, 0, 0}};
+  m.clearcoat_texture = {0, 1};
+  const Matter matter = Surfaces(scene).matter(point_of(scene));
+  EXPECT_EQ(matter.specular, 0);
+  EXPECT_EQ(matter.clearcoat, 1);
+}
+
+/// A material with all factors 0.5 and all textures (0.2, 0.4, 0.6, 0.8).
+Scene textured() {
+  Scene scene = picture(texture_of({{51, 102, 153, 204}}));
+  Material& m = scene.materials[0];
+  m.metallic = m.roughness = m.specular = m.transmission = m.clearcoat = m.clearcoat_roughness = m.sheen_roughness = 0.5F;
+  m.specular_color = m.sheen_color = Spectrum(0.5F);
+  return scene;
+}
+
+TEST(Matter, TakesEachTexturesOwnChannels) {
+  Scene scene = textured();
+  for (TextureUse* use : texture_uses(scene.materials[0])) use->texture = 0;
+  const Matter m = Surfaces(scene).matter(point_of(scene));
+  const Spectrum half_color(0.1F, 0.2F, 0.3F);
+  expect_near(m.base, half_color);
+  EXPECT_NEAR(m.roughness, 0.2F, kCodeRounding) << "green";
+  EXPECT_NEAR(m.metallic, 0.3F, kCodeRounding) << "blue";
+  EXPECT_NEAR(m.specular, 0.4F, kCodeRounding) << "alpha";
+  expect_near(m.specular_color, half_color);
+  EXPECT_NEAR(m.transmission, 0.1F, kCodeRounding) << "red";
+  EXPECT_NEAR(m.clearcoat, 0.1F, kCodeRounding) << "red";
+  EXPECT_NEAR(m.clearcoat_roughness, 0.2F, kCodeRounding) << "green";
+  expect_near(m.sheen, half_color);
+  EXPECT_NEAR(m.sheen_roughness, 0.4F, kCodeRounding) << "alpha";
+}
+
+TEST(Matter, EachTextureChangesNothingElse) {
+  const Matter plain = Surfaces(textured()).matter(point_of(textured()));
+  for (std::size_t k = 0; k < texture_uses(textured().materials[0]).size(); ++k) {
+    Scene scene = textured();
+    texture_uses(scene.materials[0])[k]->texture = 0;
+    const Matter m = Surfaces(scene).matter(point_of(scene));
+    int changed = 0;
+    for (const bool is_other :
+         {m.base != plain.base, m.metallic != plain.metallic, m.roughness != plain.roughness, m.specular != plain.specular,
+          m.specular_color != plain.specular_color, m.transmission != plain.transmission, m.clearcoat != plain.clearcoat,
+          m.clearcoat_roughness != plain.clearcoat_roughness, m.sheen != plain.sheen,
+          m.sheen_roughness != plain.sheen_roughness}) {
+      changed += is_other ? 1 : 0;
+    }
+    const TextureUse* use = texture_uses(scene.materials[0])[k];
+    const bool is_pair = use == &scene.materials[0].metallic_roughness_texture;
+    const bool is_none = use == &scene.materials[0].normal_texture || use == &scene.materials[0].emission_texture;
+    EXPECT_EQ(changed, is_pair ? 2 : is_none ? 0 : 1) << k;
+  }
+}
+
+TEST(Matter, TakesPlainNumbersAndVertexColours) {
+  Scene scene = textured();
+  Material& m = scene.materials[0];
+  m.ior = 1.75F, m.has_volume = true, m.anisotropy = 0.25F, m.anisotropy_rotation = 2;
+  scene.meshes[0].colors.assign(4, {0.25F, 0.5F, 1, 1});
+  const Matter matter = Surfaces(scene).matter(point_of(scene));
+  EXPECT_EQ(matter.ior, 1.75F);
+  EXPECT_TRUE(matter.has_volume);
+  EXPECT_EQ(matter.anisotropy, 0.25F);
+  EXPECT_EQ(matter.anisotropy_rotation, 2);
+  expect_near(matter.base, {0.125F, 0.25F, 0.5F});
+}
+
+TEST(Absorption, FollowsBeerAndLambertInsideAVolume) {
+  Scene scene = textured();
+  Material& m = scene.materials[0];
+  m.has_volume = true;
+  m.attenuation_color = {0.25F, 0.5F, 1};
+  m.attenuation_distance = 2;
+  const Surfaces surfaces(scene);
+  SurfacePoint point = point_of(scene);
+  expect_near(surfaces.absorption(point, 4), Spectrum(1.0F));  // outside
+  face(point, {0, 0, -1});
+  expect_near(surfaces.absorption(point, 0), Spectrum(1.0F));
+  expect_near(surfaces.absorption(point, 2), m.attenuation_color);
+  expect_near(surfaces.absorption(point, 4), {0.0625F, 0.25F, 1});
+  m.has_volume = false;
+  expect_near(surfaces.absorption(point, 4), Spectrum(1.0F));
+  m.has_volume = true, m.attenuation_distance = 0;
+  expect_near(surfaces.absorption(point, 4), Spectrum(1.0F));
 }
 
 }  // namespace

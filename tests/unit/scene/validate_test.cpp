@@ -37,9 +37,9 @@ TEST(Validate, NamesWhatIsWrongAndWhere) {
   expect_fault("meshes[0]: a normal", [](Scene& s) { s.meshes[0].normals[1] = {0, 0, 2}; });
   expect_fault("meshes[0]: an attribute", [](Scene& s) { s.meshes[0].normals.pop_back(); });
   expect_fault("meshes[0]: material", [](Scene& s) { s.meshes[0].material = 9; });
-  expect_fault("materials[0] 'paint': reflectance", [](Scene& s) { s.materials[0].reflectance.g = 1.5F; });
+  expect_fault("materials[0] 'paint': base colour", [](Scene& s) { s.materials[0].base_color.g = 1.5F; });
   expect_fault("materials[0] 'paint': emission", [](Scene& s) { s.materials[0].emission.g = -1; });
-  expect_fault("materials[0] 'paint': texture", [](Scene& s) { s.materials[0].reflectance_texture = 0; });
+  expect_fault("materials[0] 'paint': texture", [](Scene& s) { s.materials[0].base_texture.texture = 0; });
   expect_fault("instances[0]: mesh", [](Scene& s) { s.instances[0].mesh = 1; });
   expect_fault("instances[0]: transform is not inv", [](Scene& s) { s.instances[0].to_world[1][1] = 0; });
   expect_fault("instances[0]: transform is not aff", [](Scene& s) { s.instances[0].to_world[1][3] = 1; });

@@ -33,7 +33,7 @@ TEST(Receivers, AreVisiblePointsThatFaceTheCamera) {
   for (const ReceiverPoint& point : seen.points) {
     EXPECT_NEAR(length(point.normal), 1, 1e-5);
     EXPECT_GT(dot(point.normal, seen.camera.position - point.position), 0);
-    EXPECT_EQ(seen.world.caster.transmittance(point.position, seen.camera.position), 1);
+    EXPECT_EQ(seen.world.caster.transmittance(point.position, seen.camera.position), Spectrum(1.0F));
   }
 }
 

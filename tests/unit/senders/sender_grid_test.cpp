@@ -16,9 +16,38 @@ using test::SolvedScene;
 TEST(SenderGrid, RoundTripKeepsEveryByte) {
   const SolvedScene scene("cornell");
   const std::vector<std::byte> bytes = encode(scene.classify());
-  const Result<SenderGridFile> again = decode_sender_grid(bytes, scene.camera(), scene.tree);
+  const Result<SenderGridFile> again = decode_sender_grid(bytes, scene.camera(), scene.tree, scene.patches());
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(encode(*again), bytes);
+}
+
+/// The Cornell box, which is open towards the camera, under an even sky.
+Scene under_a_sky() {
+  Scene scene = test::own_scene("cornell");
+  scene.environment = {2, 1, {Spectrum(1.0F), Spectrum(1.0F)}, {}};
+  return scene;
+}
+
+TEST(SenderGrid, KnowsTheSkyThatItsVerticesSee) {
+  const SolvedScene scene(under_a_sky());
+  ASSERT_GT(scene.patches(), 0U);
+  const SenderGridFile file = scene.classify();
+  bool is_hidden = false;
+  for (const VertexSenders& senders : file.senders) {
+    ASSERT_EQ(senders.sky.size(), scene.patches());
+    for (const float seen : senders.sky) {
+      EXPECT_TRUE(seen >= 0.25F && seen <= 1) << seen;
+      is_hidden = is_hidden || seen < 0.3F;
+    }
+  }
+  EXPECT_TRUE(is_hidden) << "most of the sky is behind walls";
+  const std::vector<std::byte> bytes = encode(file);
+  const Result<SenderGridFile> again = decode_sender_grid(bytes, scene.camera(), scene.tree, scene.patches());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(encode(*again), bytes);
+  const auto other_sky = decode_sender_grid(bytes, scene.camera(), scene.tree, scene.patches() + 1);
+  ASSERT_FALSE(other_sky);
+  EXPECT_EQ(other_sky.error().code, Code::kDataLoss);
 }
 
 TEST(SenderGrid, HasTheSameBytesForAnyNumberOfThreads) {
@@ -48,7 +77,7 @@ TEST(SenderGrid, HostileBytesGiveDataLossOrAGrid) {
   const std::vector<std::byte> bytes = encode(scene.classify());
   // Up to 63 bytes behind the last array are padding.
   for (std::size_t size = 0; size + 64 <= bytes.size(); size += 1 + size / 64) {
-    const auto cut = decode_sender_grid(std::span(bytes).first(size), scene.camera(), scene.tree);
+    const auto cut = decode_sender_grid(std::span(bytes).first(size), scene.camera(), scene.tree, scene.patches());
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, Code::kDataLoss);
   }
@@ -58,7 +87,7 @@ TEST(SenderGrid, HostileBytesGiveDataLossOrAGrid) {
     // Half of the damage goes to the header and the table of sections.
     const std::size_t reach = n % 2 == 0 ? std::min<std::size_t>(damaged.size(), 1024) : damaged.size();
     damaged[random.bits() % reach] ^= static_cast<std::byte>(1 + random.bits() % 255);
-    const auto file = decode_sender_grid(damaged, scene.camera(), scene.tree);
+    const auto file = decode_sender_grid(damaged, scene.camera(), scene.tree, scene.patches());
     if (!file) continue;
     EXPECT_EQ(file->senders.size(), file->vertices.size());
     for (const std::uint32_t id : file->vertices) EXPECT_LT(id, file->grid.vertex_count());

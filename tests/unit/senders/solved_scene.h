@@ -9,8 +9,9 @@ namespace radfarm::test {
 
 /// One of our scenes with a coarse radiosity solution, as the sender stage gets it.
 struct SolvedScene {
-  explicit SolvedScene(const std::string& name)
-      : world(own_scene(name)),
+  explicit SolvedScene(const std::string& name) : SolvedScene(own_scene(name)) {}
+  explicit SolvedScene(Scene scene)
+      : world(std::move(scene)),
         solution(solve_radiosity(world, coarse(), 1)),
         tree(make_sender_tree(solution)),
         settings(small_grid(solution)) {}
@@ -30,6 +31,7 @@ struct SolvedScene {
     settings.threshold = 0.01F * luminance(solved.reflected_power.at(0)) / (kPi * area);
     return settings;
   }
+  std::size_t patches() const { return world.environment.patches().size(); }
   const Camera& camera() const { return world.scene.cameras.at(0); }
   SenderGridFile classify(std::uint64_t seed = 1) const {
     return classify_visible(world, tree, camera(), 24, 20, settings, seed);

@@ -30,7 +30,7 @@ TEST(VertexSenders, AreDistinctNodesAndLightThatIsNowhereNegative) {
         EXPECT_LT(sender.node, scene.tree.nodes.size());
         EXPECT_GE(min_component(sender.direct), 0);
         EXPECT_GE(min_component(sender.indirect), 0);
-        EXPECT_TRUE(sender.visibility >= 0 && sender.visibility <= 1.0001F);
+        EXPECT_TRUE(min_component(sender.visibility) >= 0 && max_component(sender.visibility) <= 1.0001F);
         EXPECT_TRUE(sender.resample_form_factor + sender.resample_visibility >= 1);
         nodes.insert(sender.node);
       }

@@ -1,0 +1,62 @@
+#include "pipeline/expected_cost.h"
+
+#include "base/stopwatch.h"
+#include "estimate/path_reference.h"
+#include "estimate/render_tile.h"
+
+namespace radfarm {
+namespace {
+
+constexpr int kPilotPixels = 4096;
+
+// A gathered sample draws senders and form factors besides its rays: so many rays' time for each ray. Measured 1.5 to 2.
+constexpr double kTimesRays = 1.75;
+// To prepare: CPU seconds a triangle for its elements and links, and for the grid's vertices. The first differs most by scene.
+constexpr double kLowPerTriangle = 2e-5, kHighPerTriangle = 4e-4;
+constexpr double kSenders = 3;
+
+struct PilotCost {
+  double sample_seconds = 0;
+  double ray_seconds = 0;
+};
+
+PilotCost trace_pilot(const World& world, const Film& film) {
+  Counters counters;
+  const SampleRadiance path = [&](const Ray& ray, const PixelSampler& sampler, Counters& c) {
+    return trace_path(world, ray, sampler, c);
+  };
+  const Stopwatch watch;
+  for (int i = 0; i < kPilotPixels; ++i) {
+    const int x = static_cast<int>((static_cast<long>(i) * 7919) % film.width);
+    const int y = static_cast<int>(static_cast<long>(i) * film.height / kPilotPixels);
+    (void)sample_pixel(film, Stream::kProbe, x, y, 0, 1, path, counters);
+  }
+  const double seconds = watch.cpu_seconds();
+  const auto rays = static_cast<double>(counters.camera_rays + counters.path_rays + counters.visibility_rays);
+  return {seconds / kPilotPixels, rays > 0 ? seconds / rays : 0};
+}
+
+}  // namespace
+
+ExpectedCost expect_cost(const World& world, const Camera& camera, const Settings& settings) {
+  const PilotCost pilot = trace_pilot(world, {camera, settings.width, settings.height, settings.seed});
+  ExpectedCost cost;
+  cost.ray_seconds = pilot.ray_seconds;
+  cost.audit = 2.0 * settings.audit_pixels * settings.audit_samples * pilot.sample_seconds;
+  const double samples = static_cast<double>(settings.width) * settings.height * settings.camera_samples;
+  if (settings.integrator == Settings::Integrator::kPathTrace) {
+    cost.low = 0.8 * samples * pilot.sample_seconds + cost.audit;
+    cost.high = 1.5 * samples * pilot.sample_seconds + cost.audit;
+    return cost;
+  }
+  double triangles = 0;
+  for (const Instance& instance : world.scene.instances) {
+    triangles += static_cast<double>(world.scene.meshes[instance.mesh].triangles.size());
+  }
+  const double gather = samples * static_cast<double>(settings.senders.samples_per_gather) * kTimesRays * pilot.ray_seconds;
+  cost.low = 0.6 * gather + kLowPerTriangle * triangles + 0.5 * kSenders + cost.audit;
+  cost.high = 1.7 * gather + kHighPerTriangle * triangles + 3 * kSenders + cost.audit;
+  return cost;
+}
+
+}  // namespace radfarm
