@@ -77,7 +77,7 @@ json unaudited(const Measurements& m) {
 json effects_json(const EffectsPlan& plan) {
   json rows = json::array();
   for (const EffectDecision& e : plan.effects) {
-    rows.push_back({{"id", e.id}, {"active", e.active}, {"test", e.test}, {"value", e.value},
+    rows.push_back({{"id", e.id}, {"active", e.active}, {"test", e.test}, {"value", bound_json(e.value)},
                     {"bound", bound_json(e.bound)},
                     {"bound_kind", e.bound_kind}, {"bound_scope", e.bound_scope}, {"note", e.note}});
   }
