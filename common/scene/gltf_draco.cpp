@@ -40,7 +40,7 @@ bool read_head(std::string_view bytes, Head& head) {
   if (!buffer.Decode(&geometry) || !buffer.Decode(&head.method) || !buffer.Decode(&flags)) return false;
   if (std::string_view(magic, sizeof magic) != "DRACO" || major != 2 || minor != 2) return false;
   if (geometry != draco::TRIANGULAR_MESH || head.method > draco::MESH_EDGEBREAKER_ENCODING) return false;
-  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(major, minor));
+  buffer.set_bitstream_version(static_cast<std::uint16_t>(DRACO_BITSTREAM_VERSION(major, minor)));
   draco::GeometryMetadata metadata;
   const bool has_metadata = (flags & METADATA_FLAG_MASK) != 0;
   if (has_metadata && !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata)) return false;
