@@ -31,6 +31,11 @@ SenderOutline outline_of(const SenderTree& tree, std::uint32_t id) {
   return outline;
 }
 
+Vec3 gap_to_box(const Vec3& offset, const Vec3& half) {
+  const auto beyond = [](float along, float extent) { return std::max(0.0F, std::fabs(along) - extent); };
+  return {beyond(offset.x, half.x), beyond(offset.y, half.y), beyond(offset.z, half.z)};
+}
+
 JudgedIrradiance judge_irradiance(const SenderOutline& sender, const Vec3& position, const Vec3& normal, float near_distance) {
   const Vec3 offset = sender.center - position;
   const float to_center = length(offset), distance = std::max(to_center, sender.radius);
@@ -40,9 +45,7 @@ JudgedIrradiance judge_irradiance(const SenderOutline& sender, const Vec3& posit
   const float highest = dot(normal, offset) + std::fabs(normal.x) * sender.half.x + std::fabs(normal.y) * sender.half.y +
                         std::fabs(normal.z) * sender.half.z;
   if (!(highest > 0)) return {};
-  const auto beyond = [](float along, float half) { return std::max(0.0F, std::fabs(along) - half); };
-  const Vec3 gap(beyond(offset.x, sender.half.x), beyond(offset.y, sender.half.y), beyond(offset.z, sender.half.z));
-  const float nearest = length(gap);
+  const float nearest = length(gap_to_box(offset, sender.half));
   const float cosine_x = nearest > highest ? highest / nearest : 1;
   float cosine_y = 1;
   if (sender.normal != Vec3(0, 0, 0)) {

@@ -41,4 +41,7 @@ struct DrawnPatch {
 DrawnPatch draw_patch(const SenderTree& tree, std::uint32_t node, const Vec3& position, const Vec3& normal,
                       float near_distance, float choice);
 
+/// How far a point, `offset` from a box's centre, is from the box along each axis; 0 inside.
+Vec3 gap_to_box(const Vec3& offset, const Vec3& half);
+
 }  // namespace radfarm

@@ -191,9 +191,7 @@ void distrust_emitter(const SenderNode& node, const ReceiverRegion& region, floa
 
 /// Whether a part of the sender may be nearer than `near_distance` to a point of the region.
 bool may_be_near(const SenderNode& node, const ReceiverRegion& region, float near_distance) {
-  const Vec3 offset = region.center - node.bounds.center(), half = node.bounds.size() * 0.5F;
-  const auto beyond = [](float along, float extent) { return std::max(0.0F, std::fabs(along) - extent); };
-  const Vec3 gap(beyond(offset.x, half.x), beyond(offset.y, half.y), beyond(offset.z, half.z));
+  const Vec3 gap = gap_to_box(region.center - node.bounds.center(), node.bounds.size() * 0.5F);
   return length(gap) < near_distance + region.radius;
 }
 
