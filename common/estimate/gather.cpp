@@ -178,8 +178,10 @@ class EyeChain {
       const auto met = arrive_at(ray, {ray.origin, ray.direction, 0, true}, hit, throughput, PathStage::kSeen);
       if (!met) return parts_;
       SurfacePoint point = met->point;
-      scatter_seen(point, -ray.direction, met->throughput, panes);
-      if (!surfaces.is_pane(surfaces.scene().instances[hit->instance].mesh)) return parts_;
+      const bool is_pane = surfaces.is_pane(surfaces.scene().instances[hit->instance].mesh);
+      // About as many chains as the diffuse part has rays: else gloss, or what a mirror shows, would be the image's noise.
+      scatter_seen(point, -ray.direction, met->throughput, panes, is_pane ? 1 : kChains);
+      if (!is_pane) return parts_;
       const float cosine = std::fabs(dot(point.geometric_normal, ray.direction));
       throughput = met->throughput * pane_passage(surfaces.matter(point), cosine);
       ray.origin = leave(point, ray.direction);
@@ -211,12 +213,11 @@ class EyeChain {
   }
 
   /// What the camera sees first, or by panes.
-  void scatter_seen(SurfacePoint& point, const Vec3& to_viewer, const Spectrum& throughput, std::uint32_t panes) {
+  void scatter_seen(SurfacePoint& point, const Vec3& to_viewer, const Spectrum& throughput, std::uint32_t panes,
+                    std::uint32_t chains) {
     const Bsdf bsdf = bsdf_at(context_.world.surfaces, point, to_viewer);
     gather_here(point, bsdf, throughput);
     if (!bsdf.has_specular()) return;
-    // About as many chains as the diffuse part has rays: else gloss would be the image's noise.
-    const std::uint32_t chains = bsdf.is_delta() ? 1 : kChains;
     const Vertex vertex{context_.world, point, bsdf, 1, 1};
     for (std::uint32_t k = 0; k < chains; ++k) {
       follow(vertex, throughput / static_cast<float>(chains),
