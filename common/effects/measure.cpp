@@ -28,11 +28,11 @@ void count_layers(const Material& material, Measurements& m) {
   Matter bare = matter;
   bare.base = matter.base * matter.metallic;  // what is left is specular
   m.max_specular = std::max(m.max_specular, max_component(mean_reflectance(bare)));
-  const bool is_smooth = matter.roughness * matter.roughness < kLeastAlpha;
   m.metals += matter.metallic > 0 ? 1 : 0;
-  m.mirrors += is_smooth && (matter.metallic > 0 || matter.specular > 0) ? 1 : 0;
-  m.glossy += !is_smooth && (matter.metallic > 0 || matter.specular > 0) ? 1 : 0;
+  m.mirrors += is_smooth(matter.roughness) && (matter.metallic > 0 || matter.specular > 0) ? 1 : 0;
+  m.glossy += !is_smooth(matter.roughness) && (matter.metallic > 0 || matter.specular > 0) ? 1 : 0;
   m.coats += matter.clearcoat > 0 ? 1 : 0;
+  m.mirror_coats += matter.clearcoat > 0 && is_smooth(matter.clearcoat_roughness) ? 1 : 0;
   m.sheens += is_black(matter.sheen) ? 0 : 1;
   m.anisotropic += matter.anisotropy > 0 ? 1 : 0;
   if (matter.transmission == 0) return;
@@ -76,6 +76,9 @@ void measure_materials(const Scene& scene, Measurements& m) {
     m.min_reflectance = std::min(m.min_reflectance, is_textured ? 0 : min_component(material.base_color));
     m.color_deviation = std::max(m.color_deviation, deviation(material.base_color));
     m.max_radiance = std::max(m.max_radiance, luminance(material.emission));
+    m.dispersive += material.asks_for(Material::kDispersion) ? 1 : 0;
+    m.iridescent += material.asks_for(Material::kIridescence) ? 1 : 0;
+    m.scattering += material.asks_for(Material::kScatteringInside) ? 1 : 0;
     count_layers(material, m);
     measure_textures(scene, material, m);
   }

@@ -24,8 +24,9 @@ struct Measurements {
   float min_reflectance = 1;               // smallest, textures taken as 0
   float color_deviation = 0;               // largest relative deviation of a reflectance's channel from its luminance
   float max_specular = 0;                  // largest mean reflectance of the specular layers, textures taken as 1
-  std::size_t metals = 0, glossy = 0, mirrors = 0, coats = 0, sheens = 0, anisotropic = 0;  // materials
+  std::size_t metals = 0, glossy = 0, mirrors = 0, coats = 0, mirror_coats = 0, sheens = 0, anisotropic = 0;  // materials
   std::size_t volumes = 0, panes = 0, rough_transmitters = 0;
+  std::size_t dispersive = 0, iridescent = 0, scattering = 0;  // not simulated
   float max_transmission = 0;
   float least_coverage = 1;                // of any texel or vertex of a material with alpha
   float texture_deviation = 0;             // |rho - mean rho| of any texel of a base texture, times the colour

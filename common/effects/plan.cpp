@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace radfarm {
 namespace {
@@ -84,7 +85,7 @@ void add_matter(const Measurements& m, std::vector<EffectDecision>& rows) {
                         kLeastDeviation, static_cast<double>(m.texture_deviation) * m.pilot.direct_radiance / std::max(0.01, static_cast<double>(m.max_reflectance)),
                         "heuristic", kMean, "the texture's mean colour"));
   rows.push_back(decide("normal_maps", "largest angle of a normal map's texel > 1 degree", static_cast<double>(m.normal_map_angle),
-                        kLeastAngle, std::sin(static_cast<double>(m.normal_map_angle) * 3.14159265 / 180) * m.pilot.direct_radiance,
+                        kLeastAngle, std::sin(static_cast<double>(m.normal_map_angle) * std::numbers::pi / 180) * m.pilot.direct_radiance,
                         "heuristic", kMean, "the interpolated normal"));
 }
 
@@ -95,7 +96,7 @@ void add_transport(const Measurements& m, Transport transport, std::vector<Effec
   rows.push_back(decide("interreflection", "rho phi / (1 - rho phi), phi: share of diffuse rays that meet what reflects, > 0.005",
                         gain, kJustInvisible, gain * brightest, m.pilot.met == 0 ? "95 %" : "heuristic", kMean, "direct light only; nothing is solved"));
   const bool is_gather = transport == Transport::kGather;
-  const auto specular = static_cast<double>(m.metals + m.glossy + m.mirrors + m.coats + m.volumes + m.rough_transmitters);
+  const auto specular = static_cast<double>(m.metals + m.glossy + m.mirrors + m.coats + m.sheens + m.volumes + m.rough_transmitters);
   const double per_receiver = static_cast<double>(m.max_reflectance) * std::max(static_cast<double>(m.max_specular), static_cast<double>(m.max_transmission));
   EffectDecision caustics = skip("caustics", "materials that are specular, and lit > 0", specular, times_share(max_radiance(m), per_receiver), "rigorous",
                                  "light that comes to diffuse surfaces by specular ones is as if those were diffuse; none passes solid glass");
@@ -122,8 +123,12 @@ void add_rest(const Measurements& m, std::vector<EffectDecision>& rows) {
   rows.push_back(always("channels", "channels in which light is emitted", static_cast<double>(3 - m.dark_channels),
                         "a channel without light stays exactly 0"));
   rows.push_back(skip("participating_media", "media declared > 0", 0, 0, "exact", "vacuum between surfaces; absorption inside volumes is part of transmission"));
-  rows.push_back(skip("subsurface", "materials that scatter inside > 0", 0, 0, "exact", "diffuse reflection at the surface"));
-  rows.push_back(skip("dispersion", "materials with dispersion > 0", 0, 0, "exact", "one index of refraction for all colours"));
+  const auto lost = [&](const char* id, const char* test, std::size_t count, const char* note) {
+    rows.push_back(skip(id, test, static_cast<double>(count), max_radiance(m), "rigorous", note));
+  };
+  lost("subsurface", "materials that scatter inside > 0", m.scattering, "diffuse reflection at the surface");
+  lost("dispersion", "materials with dispersion > 0", m.dispersive, "one index of refraction for all colours");
+  lost("iridescence", "materials with a thin film > 0", m.iridescent, "the layer without its film");
   rows.push_back(skip("masking", "visual masking by detail", 0, 0, "exact", "the plain threshold: skipping only raises accuracy"));
   rows.push_back(skip("adaptive_sampling", "samples that follow the pixel's variance", 0, 0, "exact", "the same number in every pixel"));
 }

@@ -1,6 +1,6 @@
 #include "estimate/sky_light.h"
 
-#include <cmath>
+#include <algorithm>
 #include <vector>
 
 #include "scene/emitter_sampling.h"
@@ -11,8 +11,7 @@ namespace {
 /// What a patch is likely to give, luminance. A patch is wide: some of it may be above a horizon that its middle is below.
 float likely_from(const GatherPoint& point, const SkyPatch& patch, float seen) {
   const float cosine = dot(point.surface.shading_normal, patch.direction);
-  const float radius = std::sqrt(patch.solid_angle * kInversePi);  // of a cap of that size, about
-  return luminance(patch.irradiance) * seen * std::max(0.0F, cosine + radius);
+  return patch.illuminance * seen * std::max(0.0F, cosine + patch.radius);
 }
 
 Spectrum line_to_sky(const GatherPoint& point, std::uint32_t patch, const Vec2& u) {

@@ -60,7 +60,8 @@ json to_json(const Settings& s) {
               {"seed", s.seed},
               {"camera_samples", s.camera_samples},
               {"audit_pixels", s.audit_pixels},
-              {"audit_samples", s.audit_samples}};
+              {"audit_samples", s.audit_samples},
+              {"effects_off", s.effects_off}};
   if (!is_gather) return out;
   out["radiosity"] = {{"max_link_error", s.radiosity.max_link_error},
                       {"min_patch_area", s.radiosity.min_patch_area},

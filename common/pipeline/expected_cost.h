@@ -14,7 +14,7 @@ struct ExpectedCost {
 };
 
 /// Traces a few thousand paths of the view and scales their time by the settings' counts; what gathering adds is by the counts
-/// of rays and the mean costs that docs/benchmarks.md measured. Costs about 0.1 CPU s.
+/// of rays and rough costs, chosen so that cornell and office of docs/benchmarks.md lie within. Costs about 0.1 CPU s.
 ExpectedCost expect_cost(const World& world, const Camera& camera, const Settings& settings);
 
 }  // namespace radfarm

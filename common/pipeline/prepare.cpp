@@ -68,7 +68,7 @@ json bound_json(double bound) { return std::isfinite(bound) ? json(bound) : json
 /// What neither the image nor the path tracer, which audits it, can carry.
 json unaudited(const Measurements& m) {
   json list = json::array();
-  if (m.punctual_lights > 0 && m.mirrors + m.volumes > 0) {
+  if (m.punctual_lights > 0 && m.mirrors + m.mirror_coats + m.volumes > 0) {
     list.push_back("light of points and directions by mirrors and clear glass: no path meets it");
   }
   return list;

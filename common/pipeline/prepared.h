@@ -16,7 +16,8 @@ namespace radfarm {
 struct Prepared::Parts {
   Parts(View opened, Scene loaded, SenderTree sending)
       : view(std::move(opened)),
-        world(specialise(loaded, view.settings.effects_off)),
+        world(is_exact() ? specialise(std::move(loaded), view.settings.effects_off)
+                         : specialise(loaded, view.settings.effects_off)),
         tree(std::move(sending)),
         scene(is_exact() ? Scene() : std::move(loaded)) {}
   const View view;

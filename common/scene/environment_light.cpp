@@ -78,8 +78,18 @@ void EnvironmentLight::add_patch(const TexelRect& rect, std::span<const Vec3d> m
   // Opposite directions of a map of few texels may cancel.
   const LatLongMap::Texel centre{(rect.row_begin + rect.row_end) / 2, (rect.column_begin + rect.column_end) / 2};
   const bool has_mean = length(towards) > 1e-6 * rows;
-  patches_.push_back({to_float(has_mean ? normalize(towards) : direction_at(map_->place_in(centre, 0, 0))),
-                      Spectrum(irradiance), static_cast<float>(solid_angle), rect});
+  SkyPatch patch;
+  patch.direction = to_float(has_mean ? normalize(towards) : direction_at(map_->place_in(centre, 0, 0)));
+  patch.texels = rect;
+  push_patch(patch, irradiance, solid_angle);
+}
+
+void EnvironmentLight::push_patch(SkyPatch patch, const SpectrumD& irradiance, double solid_angle) {
+  patch.irradiance = Spectrum(irradiance);
+  patch.solid_angle = static_cast<float>(solid_angle);
+  patch.illuminance = static_cast<float>(luminance(irradiance));
+  patch.radius = static_cast<float>(std::sqrt(solid_angle / kPiD));
+  patches_.push_back(patch);
 }
 
 void EnvironmentLight::add_sun() {
@@ -91,15 +101,12 @@ void EnvironmentLight::add_sun() {
   max_luminance_ = std::max(max_luminance_, luminance(sun.radiance) + behind);
   SkyPatch patch;
   patch.direction = sun.direction;
-  patch.solid_angle = static_cast<float>(2 * kPiD * sun_height_);
-  const SpectrumD irradiance = SpectrumD(sun.radiance) * (2 * kPiD * sun_height_);
-  patch.irradiance = Spectrum(irradiance);
+  const double solid_angle = 2 * kPiD * sun_height_;
+  const SpectrumD irradiance = SpectrumD(sun.radiance) * solid_angle;
   total_ += irradiance;
-  patches_.push_back(patch);
+  push_patch(patch, irradiance, solid_angle);
   has_sun_ = true;
 }
-
-float EnvironmentLight::mean_luminance() const { return static_cast<float>(luminance(total_) / (4 * kPiD)); }
 
 bool EnvironmentLight::is_in_sun(const Vec3d& direction) const {
   // 1 - cosine is half the squared chord, which keeps the digits that the cosine of a small angle has lost.

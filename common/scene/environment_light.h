@@ -19,6 +19,8 @@ struct SkyPatch {
   Spectrum irradiance;      // integral of radiance over the patch: lux at normal incidence
   float solid_angle = 0;    // sr
   TexelRect texels;         // none: the sun
+  float illuminance = 0;    // luminance of `irradiance`
+  float radius = 0;         // of a cap of that solid angle, radians, about
 };
 
 /// The light of an Environment, and how to choose directions towards it: a patch with probability 0.9 by luminous
@@ -57,8 +59,6 @@ class EnvironmentLight {
   Spectrum total() const { return Spectrum(total_); }
   /// cd/m^2 of the brightest texel, or of the sun before the map.
   float max_luminance() const { return max_luminance_; }
-  /// cd/m^2 over the whole sphere.
-  float mean_luminance() const;
 
  private:
   struct Choice {
@@ -68,6 +68,7 @@ class EnvironmentLight {
   void add_map();
   void add_patch(const TexelRect& rect, std::span<const Vec3d> meridians);
   void add_sun();
+  void push_patch(SkyPatch patch, const SpectrumD& irradiance, double solid_angle);
   Choice choose_texel(const SkyPatch& patch, std::size_t first_row, const Vec2& u) const;
   Vec3 sample_sun(const Vec2& u) const;
   bool is_in_sun(const Vec3d& direction) const;

@@ -85,7 +85,15 @@ void make_unlit(Material& material, Scene& scene) {
                       " emit their base colour, in cd/m^2, from both sides and reflect nothing.");
 }
 
-void note_extensions(const json& source, Scene& scene) {
+std::uint32_t unsimulated_by(std::string_view extension) {
+  if (extension == "KHR_materials_dispersion") return Material::kDispersion;
+  if (extension == "KHR_materials_iridescence") return Material::kIridescence;
+  const bool is_inside = extension == "KHR_materials_diffuse_transmission" || extension == "KHR_materials_volume_scatter" ||
+                         extension == "KHR_materials_subsurface";
+  return is_inside ? Material::kScatteringInside : 0;
+}
+
+void note_extensions(const json& source, Scene& scene, Material& material) {
   constexpr std::array<std::string_view, 10> kRead = {
       "KHR_materials_emissive_strength", "KHR_materials_specular",  "KHR_materials_ior",   "KHR_materials_transmission",
       "KHR_materials_volume",            "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_anisotropy",
@@ -93,13 +101,14 @@ void note_extensions(const json& source, Scene& scene) {
   for (const auto& [name, value] : gltf_object(source, "extensions").items()) {
     if (!name.starts_with("KHR_materials_") || std::find(kRead.begin(), kRead.end(), name) != kRead.end()) continue;
     add_note(scene, "Material extension " + name.substr(0, 60) + " is ignored.");
+    material.unsimulated |= unsimulated_by(name);
   }
 }
 
 Result<Material> read_material(const json& source, GltfTextureReader& textures, Scene& scene) {
   Material material;
   material.name = gltf_text(source, "name");
-  note_extensions(source, scene);
+  note_extensions(source, scene, material);
   if (has_gltf_extension(source, kUnlit)) {
     RADFARM_TRY_STATUS(read_metallic_roughness(source, textures, material));
     material.metallic = 0;

@@ -76,6 +76,10 @@ struct Material {
   Alpha alpha_mode = Alpha::kOpaque;
   float alpha = 1;                           // coverage; times the base texture's alpha and the vertex alpha
   float alpha_cutoff = 0.5F;                 // kMask: coverage is 1 at or above, else 0
+  /// What a file may ask for and radfarm cannot do, as bits of `unsimulated`.
+  static constexpr std::uint32_t kDispersion = 1, kIridescence = 2, kScatteringInside = 4;
+  std::uint32_t unsimulated = 0;
+  bool asks_for(std::uint32_t bit) const { return (unsimulated & bit) != 0; }
   bool is_switched_off = false;              // a lamp of no power: the file gives an emission, and 0 as its strength
 
   bool is_lambertian() const {

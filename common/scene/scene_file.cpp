@@ -22,10 +22,10 @@ struct MaterialRecord {
   std::array<float, 3> base_color, specular_color, attenuation_color, sheen_color, emission;
   float metallic, roughness, specular, ior, transmission, attenuation_distance, clearcoat, clearcoat_roughness;
   float sheen_roughness, anisotropy, anisotropy_rotation, normal_scale, alpha, alpha_cutoff;
-  std::uint32_t has_volume, emits_from_both_sides, alpha_mode, is_switched_off;
+  std::uint32_t has_volume, emits_from_both_sides, alpha_mode, is_switched_off, unsimulated;
   std::array<TextureUse, 11> textures;
 };
-static_assert(sizeof(MaterialRecord) == (15 + 14 + 4 + 11 * 8) * 4, "stored without padding");
+static_assert(sizeof(MaterialRecord) == (15 + 14 + 5 + 11 * 8) * 4, "stored without padding");
 struct MeshRecord {
   std::uint64_t vertices, triangles;
   std::uint32_t material, arrays;  // a bit for each optional array
@@ -147,6 +147,7 @@ MaterialRecord record_of(const Material& m) {
   r.alpha = m.alpha, r.alpha_cutoff = m.alpha_cutoff;
   r.has_volume = m.has_volume ? 1 : 0, r.emits_from_both_sides = m.emits_from_both_sides ? 1 : 0;
   r.alpha_mode = static_cast<std::uint32_t>(m.alpha_mode), r.is_switched_off = m.is_switched_off ? 1 : 0;
+  r.unsimulated = m.unsimulated;
   const auto uses = texture_uses(m);
   for (std::size_t i = 0; i < uses.size(); ++i) r.textures[i] = *uses[i];
   return r;
@@ -164,6 +165,7 @@ Material material_of(const MaterialRecord& r) {
   m.alpha = r.alpha, m.alpha_cutoff = r.alpha_cutoff;
   m.has_volume = r.has_volume != 0, m.emits_from_both_sides = r.emits_from_both_sides != 0;
   m.alpha_mode = Material::Alpha(r.alpha_mode), m.is_switched_off = r.is_switched_off != 0;
+  m.unsimulated = r.unsimulated;
   const auto uses = texture_uses(m);
   for (std::size_t i = 0; i < uses.size(); ++i) *uses[i] = r.textures[i];
   return m;
@@ -257,7 +259,8 @@ Status get_materials(const FlatFileReader& file, Scene& scene) {
   RADFARM_TRY(auto names, get_texts(file, "materials.names", records.size()));
   for (std::size_t i = 0; i < records.size(); ++i) {
     const MaterialRecord& r = records[i];
-    if (r.alpha_mode > 2 || r.has_volume > 1 || r.emits_from_both_sides > 1 || r.is_switched_off > 1) {
+    if (r.alpha_mode > 2 || r.has_volume > 1 || r.emits_from_both_sides > 1 || r.is_switched_off > 1 ||
+        r.unsimulated > 7) {
       return damaged("a material has an unknown mode");
     }
     scene.materials.push_back(material_of(r));

@@ -96,6 +96,8 @@ TEST(GltfMaterial, ExtensionsThatAreLeftOutLeaveANote) {
   const Result<Scene> scene = load(gltf.document);
   ASSERT_TRUE(scene);
   EXPECT_THAT(scene->notes, Contains("Material extension KHR_materials_iridescence is ignored."));
+  EXPECT_TRUE(scene->materials[0].asks_for(Material::kIridescence));
+  EXPECT_FALSE(scene->materials[0].asks_for(Material::kScatteringInside));
   EXPECT_THAT(scene->notes, Contains(HasSubstr("KHR_materials_unlit")));
   EXPECT_THAT(scene->notes, Not(Contains(HasSubstr("KHR_materials_clearcoat"))));
 }
