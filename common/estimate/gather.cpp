@@ -155,8 +155,7 @@ Arrived gather_off_grid(const GatherContext& context, const Vertex& vertex, cons
     arrived.direct += on.weight * passed * weighed_sky(context.world, on.departure);
     return arrived;
   }
-  SurfacePoint met = context.world.surfaces.at(*hit);
-  face(met, -on.ray.direction);
+  const SurfacePoint met = context.world.surfaces.met(*hit, on.ray);
   arrived.direct += on.weight * hit->weight * weighed_emission(context.world, on.departure, *hit, met);
   if (context.has_interreflection) arrived.indirect += on.weight * reflected_radiance(context, *hit, met);
   return arrived;
@@ -184,7 +183,7 @@ class EyeChain {
       if (!is_pane) return parts_;
       const float cosine = std::fabs(dot(point.geometric_normal, ray.direction));
       throughput = met->throughput * pane_passage(surfaces.matter(point), cosine);
-      ray.origin = leave(point, ray.direction);
+      ray = {leave(point, ray.direction), ray.direction, point.cone};
     }
     return parts_;
   }
@@ -205,8 +204,7 @@ class EyeChain {
       emission(stage) += throughput * weighed_sky(world, from);
       return std::nullopt;
     }
-    Met met{world.surfaces.at(*hit), throughput};
-    face(met.point, -ray.direction);
+    Met met{world.surfaces.met(*hit, ray), throughput};
     met.throughput *= hit->weight * world.surfaces.absorption(met.point, hit->distance);
     emission(stage) += met.throughput * weighed_emission(world, from, *hit, met.point);
     return met;

@@ -38,8 +38,7 @@ RadianceParts trace_path(const World& world, const Ray& camera_ray, const PixelS
       part_of_emission(parts, stage) += throughput * passed * weighed_sky(world, from);
       return parts;
     }
-    SurfacePoint point = world.surfaces.at(*hit);
-    face(point, -ray.direction);
+    SurfacePoint point = world.surfaces.met(*hit, ray);
     throughput *= hit->weight * world.surfaces.absorption(point, hit->distance);
     part_of_emission(parts, stage) += throughput * weighed_emission(world, from, *hit, point);
     if (stage == PathStage::kReceiver && !has_interreflection) return parts;

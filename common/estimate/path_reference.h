@@ -14,6 +14,7 @@ namespace radfarm {
 /// solid angle where it is large enough to pay, else by area. From the third bounce on a path survives in proportion to what
 /// its luminance keeps, at most 0.99, so every path ends. No bound on depth. It cannot carry the light of points and directions
 /// by mirrors and clear glass: no ray finds either.
+/// A ray with a cone sees textures filtered, which is not quite unbiased (docs/materials.md); the audit's rays are lines.
 /// Requires: `ray` unit. Cost: about 2 rays a bounce.
 /// Without `has_interreflection`, `indirect` and light that comes to the receiver by specular surfaces are left out.
 RadianceParts trace_path(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters,

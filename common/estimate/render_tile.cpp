@@ -15,9 +15,10 @@ PixelSums sample_pixel(const Film& film, Stream stream, int x, int y, std::uint3
     const PixelSampler sampler(film.seed, stream, x, y, i);
     const Vec2 jitter = sampler.two(kFilmDimension);
     const float film_x = static_cast<float>(x) + jitter.x, film_y = static_cast<float>(y) + jitter.y;
-    const Ray ray = film.camera.lens_diameter > 0
+    Ray ray = film.camera.lens_diameter > 0
                         ? camera_ray(film.camera, film.width, film.height, film_x, film_y, sampler.two(kLensDimension))
                         : camera_ray(film.camera, film.width, film.height, film_x, film_y);
+    if (film.cone_samples > 0) ray.cone = pixel_cone(film.camera, film.height, ray.direction, film.cone_samples);
     sums.add(radiance(ray, sampler, counters));
   }
   counters.dropped_samples += sums.dropped;

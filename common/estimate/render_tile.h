@@ -28,6 +28,7 @@ struct Film {
   int width = 0;
   int height = 0;
   std::uint64_t seed = 0;
+  std::uint32_t cone_samples = 0;  // of a pixel, that share it as cones (pixel_cone); 0: rays are lines, no texture is filtered
 };
 
 /// Samples [first, first + count) of one pixel, by a box filter of one pixel. The same bits in any tile or pass.

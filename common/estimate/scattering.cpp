@@ -15,9 +15,10 @@ bool sides_agree(const SurfacePoint& point, const Vec3& direction) {
 
 Continuation continuation(const Vertex& vertex, const Bsdf::Sample& sample, float share, bool is_specular) {
   if (is_black(sample.weight) || !sides_agree(vertex.point, sample.direction)) return {};
-  return {{leave(vertex.point, sample.direction), sample.direction},
+  const float pdf = share * sample.pdf;
+  return {{leave(vertex.point, sample.direction), sample.direction, scatter(vertex.point.cone, pdf, sample.is_delta)},
           sample.weight / share,
-          {vertex.point.position, sample.direction, share * sample.pdf, sample.is_delta},
+          {vertex.point.position, sample.direction, pdf, sample.is_delta},
           is_specular};
 }
 

@@ -35,13 +35,15 @@ std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t inde
   const Settings& settings = parts.view.settings;
   TileResult result;
   result.rect = tile_rect(settings, index);
-  result.pixels = render_tile(film_of(parts.view, settings.effects_off), result.rect, settings.camera_samples, integrator(parts),
-                              result.counters);
+  Film film = film_of(parts.view, settings.effects_off);
+  film.cone_samples = settings.camera_samples;
+  result.pixels = render_tile(film, result.rect, settings.camera_samples, integrator(parts), result.counters);
   return encode(result);
 }
 
 std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t index) {
   const Settings& settings = parts.view.settings;
+  // Its rays are lines: the audit is to see what filtering does.
   const Film film = film_of(parts.view, settings.exactly_off);
   const bool has_interreflection = !contains(settings.exactly_off, Effect::kInterreflection);
   const SampleRadiance path = path_integrator(parts.audited(), has_interreflection);

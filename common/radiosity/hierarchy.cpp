@@ -16,7 +16,7 @@ namespace {
 constexpr float kLargeShare = 0.3F;
 // Weight of orientation against place when groups are split: opposite normals are as far apart as this many diagonals.
 constexpr float kNormalWeight = 0.35F;
-// Textures are averaged over this many points of a triangle.
+// A side of a triangle is cut in so many for its mean: textures are averaged over each part, all else is taken at its middle.
 constexpr int kLattice = 4;
 
 struct Item {
@@ -34,7 +34,7 @@ void average_material(const World& world, const Hit& corner, bool is_front, Patc
       Hit hit = corner;
       hit.u = (static_cast<float>(i) + 1.0F / 3) / kLattice;
       hit.v = (static_cast<float>(j) + 1.0F / 3) / kLattice;
-      SurfacePoint point = world.surfaces.at(hit);
+      SurfacePoint point = world.surfaces.at_part(hit, 1.0F / kLattice);
       point.is_front = is_front;
       const auto coverage = static_cast<double>(world.surfaces.coverage(hit));
       reflectance += coverage * SpectrumD(world.surfaces.reflectance(point));

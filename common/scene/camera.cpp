@@ -38,12 +38,17 @@ Camera look_through(const Opening& opening) {
   return camera ? *camera : Camera{};
 }
 
+/// At unit distance of a perspective camera, in metres of an orthographic one.
+float pixel_size(const Camera& camera, int height) {
+  const float half_height =
+      camera.kind == Camera::Kind::kPerspective ? std::tan(camera.vertical_fov / 2) : camera.half_height;
+  return 2 * half_height / static_cast<float>(height);
+}
+
 }  // namespace
 
 Ray camera_ray(const Camera& camera, int width, int height, float x, float y) {
-  const float half_height =
-      camera.kind == Camera::Kind::kPerspective ? std::tan(camera.vertical_fov / 2) : camera.half_height;
-  const float pixel = 2 * half_height / static_cast<float>(height);
+  const float pixel = pixel_size(camera, height);
   const float right = (x - static_cast<float>(width) / 2) * pixel;
   const float up = (static_cast<float>(height) / 2 - y) * pixel;
   const Vec3 offset = camera.right * right + camera.up * up;
@@ -59,6 +64,15 @@ Ray camera_ray(const Camera& camera, int width, int height, float x, float y, co
   const Vec2 disc = sample_uniform_disk(lens) * (camera.lens_diameter / 2);
   const Vec3 offset = camera.right * disc.x + camera.up * disc.y;
   return {camera.position + offset, normalize(focus - offset)};
+}
+
+RayCone pixel_cone(const Camera& camera, int height, const Vec3& direction, std::uint32_t samples) {
+  const float share = 1 / std::sqrt(static_cast<float>(samples));
+  const float pixel = pixel_size(camera, height) * share;
+  if (camera.kind == Camera::Kind::kOrthographic) return {pixel, 0, share};
+  // A pixel off the axis is smaller across the ray, by the cosine on one axis and its square on the other.
+  const float cosine = dot(direction, camera.forward);
+  return {0, pixel * cosine * cosine, share};
 }
 
 Result<Camera> place_camera(const Vec3& eye, const Vec3& look_at, const Vec3& up, float vertical_fov) {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/status.h"
+#include "scene/ray_cone.h"
 #include "scene/scene.h"
 
 namespace radfarm {
@@ -10,6 +11,7 @@ namespace radfarm {
 struct Ray {
   Vec3 origin;
   Vec3 direction;  // unit, unless a function says otherwise
+  RayCone cone = {};
 };
 
 /// The ray through the film at (x, y) in pixels, (0, 0) the top left corner of the image, pixel centres at .5.
@@ -19,6 +21,10 @@ Ray camera_ray(const Camera& camera, int width, int height, float x, float y);
 /// these rays meet where the pinhole's ray meets the plane of focus. Orthographic cameras and those without a lens
 /// diameter give the pinhole's ray, bit for bit.
 Ray camera_ray(const Camera& camera, int width, int height, float x, float y, const Vec2& lens);
+
+/// The cone of one of `samples` rays through a pixel: each stands for a part of it whose width is the pixel's by the root of
+/// their number (docs/decisions/0016). A lens widens nothing: its blur is what the samples cover.
+RayCone pixel_cone(const Camera& camera, int height, const Vec3& direction, std::uint32_t samples);
 
 /// A camera that looks from `eye` at `look_at`. INVALID_ARGUMENT when they coincide; an up vector along the view is
 /// replaced by another axis.

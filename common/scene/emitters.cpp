@@ -8,7 +8,7 @@
 namespace radfarm {
 namespace {
 
-// Emission textures are averaged over this many points a triangle, on an (n+1)(n+2)/2 barycentric lattice's centroids.
+// Emission textures are averaged over n (n + 1) / 2 parts of a triangle, whose sides are cut in n.
 constexpr int kLattice = 8;
 
 Spectrum mean_radiance(const Surfaces& surfaces, std::uint32_t instance, std::uint32_t triangle) {
@@ -18,7 +18,7 @@ Spectrum mean_radiance(const Surfaces& surfaces, std::uint32_t instance, std::ui
     for (int j = 0; j < kLattice - i; ++j) {
       const Hit hit{instance, triangle, (static_cast<float>(i) + 1.0F / 3) / kLattice,
                     (static_cast<float>(j) + 1.0F / 3) / kLattice, 0};
-      sum += SpectrumD(surfaces.emission(surfaces.at(hit)));
+      sum += SpectrumD(surfaces.emission(surfaces.at_part(hit, 1.0F / kLattice)));
       ++count;
     }
   }

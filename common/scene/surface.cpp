@@ -97,9 +97,45 @@ void straighten(SurfacePoint& point, const Vec3& to_viewer) {
   point.shading_normal = normalize(bent * (1 - most) + g * most);
 }
 
+std::array<UvFootprint, 2> footprint_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& index, const TriangleVertices& corners,
+                                        const SurfaceFootprint& footprint) {
+  std::array<UvFootprint, 2> in_uv = {};
+  for (std::size_t set = 0; set < 2; ++set) {
+    const std::vector<Vec2>& uv = mesh.uv[set];
+    if (!uv.empty()) in_uv[set] = to_uv(footprint, corners, {uv[index[0]], uv[index[1]], uv[index[2]]});
+  }
+  return in_uv;
+}
+
+/// What of a material is looked up over a footprint.
+std::array<const TextureUse*, 6> filtered_uses(const Material& m) {
+  return {&m.base_texture,           &m.emission_texture,  &m.specular_texture,
+          &m.specular_color_texture, &m.clearcoat_texture, &m.sheen_color_texture};
+}
+
+bool is_filtered(const Material& m) {
+  const auto uses = filtered_uses(m);
+  return std::any_of(uses.begin(), uses.end(), [](const TextureUse* use) { return use->is_used(); });
+}
+
+std::vector<TexturePyramid> make_pyramids(const Scene& scene) {
+  std::vector<bool> is_used(scene.textures.size()), is_cut_out(scene.textures.size());
+  for (const Material& m : scene.materials) {
+    for (const TextureUse* use : filtered_uses(m)) {
+      if (use->is_used()) is_used[use->texture] = true;
+    }
+    if (m.base_texture.is_used() && m.alpha_mode != Material::Alpha::kOpaque) is_cut_out[m.base_texture.texture] = true;
+  }
+  std::vector<TexturePyramid> pyramids(scene.textures.size());
+  for (std::size_t i = 0; i < pyramids.size(); ++i) {
+    if (is_used[i]) pyramids[i] = make_pyramid(scene.textures[i], is_cut_out[i] ? ColorWeight::kAlpha : ColorWeight::kEven);
+  }
+  return pyramids;
+}
+
 }  // namespace
 
-Surfaces::Surfaces(const Scene& scene) : scene_(&scene) {
+Surfaces::Surfaces(const Scene& scene) : scene_(&scene), pyramids_(make_pyramids(scene)) {
   for (const Instance& instance : scene.instances) {
     const Matrix4d inverse = Matrix4d(instance.to_world).inverse();
     const Matrix4d& to_world = Matrix4d(instance.to_world);
@@ -114,6 +150,7 @@ Surfaces::Surfaces(const Scene& scene) : scene_(&scene) {
   for (const Mesh& mesh : scene.meshes) {
     mesh_is_pane_.push_back(may_be_pane(scene.materials[mesh.material]));
     mesh_lets_through_.push_back(mesh_is_pane_.back() || has_holes(scene, mesh));
+    mesh_has_pyramid_.push_back(is_filtered(scene.materials[mesh.material]));
   }
 }
 
@@ -140,7 +177,15 @@ Hit Surfaces::hit_at(std::uint32_t instance, std::uint32_t triangle, const Vec3&
   return is_mirrored(instance) ? Hit{instance, triangle, v, u, 0} : Hit{instance, triangle, u, v, 0};
 }
 
-SurfacePoint Surfaces::at(const Hit& hit) const {
+SurfacePoint Surfaces::at(const Hit& hit) const { return place(hit, nullptr); }
+
+SurfacePoint Surfaces::met(const Hit& hit, const Ray& ray) const {
+  SurfacePoint point = place(hit, &ray);
+  face(point, -ray.direction);
+  return point;
+}
+
+SurfacePoint Surfaces::place(const Hit& hit, const Ray* ray) const {
   const Instance& placed = scene_->instances[hit.instance];
   const Placement& placement = placements_[hit.instance];
   const Mesh& mesh = scene_->meshes[placed.mesh];
@@ -172,9 +217,36 @@ SurfacePoint Surfaces::at(const Hit& hit) const {
                        mesh.colors[index[2]][k] * hit.v;
     }
   }
+  if (ray != nullptr) {
+    point.cone = advance(ray->cone, hit.distance);
+    if (point.cone.width > 0 && mesh_has_pyramid_[placed.mesh]) {
+      const SurfaceFootprint footprint = cone_on_plane(point.geometric_normal, ray->direction, point.cone.width);
+      point.footprint = footprint_of(mesh, index, {p0, p1, p2}, footprint);
+    }
+  }
   const Material& material = scene_->materials[mesh.material];
   if (material.normal_texture.is_used() || material.anisotropy > 0) bend(hit, {p0, p1, p2}, point);
   return point;
+}
+
+SurfacePoint Surfaces::at_part(const Hit& hit, float share) const {
+  SurfacePoint point = at(hit);
+  const std::uint32_t mesh = scene_->instances[hit.instance].mesh;
+  if (!mesh_has_pyramid_[mesh]) return point;
+  const auto& index = scene_->meshes[mesh].triangles[hit.triangle];
+  for (std::size_t set = 0; set < 2; ++set) {
+    const std::vector<Vec2>& uv = scene_->meshes[mesh].uv[set];
+    if (!uv.empty()) point.footprint[set] = {(uv[index[1]] - uv[index[0]]) * share, (uv[index[2]] - uv[index[0]]) * share};
+  }
+  return point;
+}
+
+Vec4 Surfaces::look_up_footprint(const TextureUse& use, const SurfacePoint& point) const {
+  if (!use.is_used()) return {1, 1, 1, 1};
+  const Texture& texture = scene_->textures[use.texture];
+  const UvFootprint& footprint = point.footprint[use.uv_set];
+  if (footprint.is_point()) return texture_lookup(texture, moved(use, point.uv));
+  return filtered_lookup(texture, pyramids_[use.texture], moved(use, point.uv), moved(footprint, use.map));
 }
 
 /// Gives the point its tangent, and of a normal map its normal.
@@ -211,23 +283,24 @@ void Surfaces::bend(const Hit& hit, const TriangleVertices& p, SurfacePoint& poi
 Matter Surfaces::matter(const SurfacePoint& point) const {
   const Material& m = scene_->materials[point.material];
   const auto look = [&](const TextureUse& use) { return look_up(*scene_, use, point.uv); };
+  const auto look_around = [&](const TextureUse& use) { return look_up_footprint(use, point); };
   Matter matter;
   matter.base = m.base_color * Spectrum(point.color[0], point.color[1], point.color[2]);
-  if (m.base_texture.is_used()) matter.base *= color(look(m.base_texture));
+  if (m.base_texture.is_used()) matter.base *= color(look_around(m.base_texture));
   if (m.is_lambertian()) return matter;
   matter.metallic = m.metallic, matter.roughness = m.roughness;
   if (m.metallic_roughness_texture.is_used()) {
     const Vec4 texel = look(m.metallic_roughness_texture);
     matter.roughness *= texel.y, matter.metallic *= texel.z;
   }
-  matter.specular = m.specular * look(m.specular_texture).w;
-  matter.specular_color = m.specular_color * color(look(m.specular_color_texture));
+  matter.specular = m.specular * look_around(m.specular_texture).w;
+  matter.specular_color = m.specular_color * color(look_around(m.specular_color_texture));
   matter.ior = m.ior;
   matter.transmission = m.transmission * look(m.transmission_texture).x;
   matter.has_volume = m.has_volume;
-  matter.clearcoat = m.clearcoat * look(m.clearcoat_texture).x;
+  matter.clearcoat = m.clearcoat * look_around(m.clearcoat_texture).x;
   matter.clearcoat_roughness = m.clearcoat_roughness * look(m.clearcoat_roughness_texture).y;
-  matter.sheen = m.sheen_color * color(look(m.sheen_color_texture));
+  matter.sheen = m.sheen_color * color(look_around(m.sheen_color_texture));
   matter.sheen_roughness = m.sheen_roughness * look(m.sheen_roughness_texture).w;
   matter.anisotropy = m.anisotropy, matter.anisotropy_rotation = m.anisotropy_rotation;
   return matter;
@@ -251,7 +324,7 @@ Spectrum Surfaces::emission(const SurfacePoint& point) const {
   const Material& material = scene_->materials[point.material];
   if (is_black(material.emission) || !(point.is_front || material.emits_from_both_sides)) return {};
   if (!material.emission_texture.is_used()) return material.emission;
-  return material.emission * color(look_up(*scene_, material.emission_texture, point.uv));
+  return material.emission * color(look_up_footprint(material.emission_texture, point));
 }
 
 float Surfaces::coverage(const Hit& hit) const {

@@ -8,7 +8,10 @@
 #include "math/spectrum.h"
 #include "math/vec.h"
 #include "matter/bsdf.h"
+#include "scene/camera.h"
+#include "scene/footprint.h"
 #include "scene/scene.h"
+#include "scene/texture_pyramid.h"
 
 namespace radfarm {
 
@@ -33,6 +36,8 @@ struct SurfacePoint {
   bool is_front = true;   // face(): the side looked at is the front
   std::array<Vec2, 2> uv{Vec2(0, 0), Vec2(0, 0)};
   std::array<float, 4> color{1, 1, 1, 1};
+  RayCone cone = {};                          // of the ray that met it, here
+  std::array<UvFootprint, 2> footprint = {};  // what look-ups stand for, by UV set; left out where nothing is textured
 };
 
 using TriangleVertices = std::array<Vec3, 3>;
@@ -48,9 +53,15 @@ class Surfaces {
   TriangleVertices triangle(std::uint32_t instance, std::uint32_t triangle) const;
   /// All the geometry at a hit. About 50 ns.
   SurfacePoint at(const Hit& hit) const;
+  /// The same with the footprint of the ray's cone, turned towards where the ray comes from: face()d.
+  SurfacePoint met(const Hit& hit, const Ray& ray) const;
+  /// The same with the footprint of a part of the triangle: its edges, `share` as long.
+  SurfacePoint at_part(const Hit& hit, float share) const;
   /// The hit that lies at a position of the triangle's plane; clamped to the triangle.
   Hit hit_at(std::uint32_t instance, std::uint32_t triangle, const Vec3& position) const;
-  /// The material there, textures and vertex colours included.
+  /// The material there, textures and vertex colours included. Over the point's footprint go what light is proportional to:
+  /// base colour, the layers' weights and colours, emission. What shapes a lobe or decides by chance is the point's own
+  /// (docs/materials.md).
   Matter matter(const SurfacePoint& point) const;
   /// What a volume leaves of a ray that went `distance` through it to its inner side at `point`; 1 elsewhere. Requires: face()d.
   Spectrum absorption(const SurfacePoint& point, float distance) const;
@@ -73,6 +84,9 @@ class Surfaces {
  private:
   void bend(const Hit& hit, const TriangleVertices& p, SurfacePoint& point) const;
 
+  SurfacePoint place(const Hit& hit, const Ray* ray) const;
+  Vec4 look_up_footprint(const TextureUse& use, const SurfacePoint& point) const;
+
   struct Placement {
     Matrix4 normal_to_world;  // inverse transpose
     bool is_mirrored = false;
@@ -81,6 +95,8 @@ class Surfaces {
   std::vector<Placement> placements_;
   std::vector<bool> mesh_lets_through_;
   std::vector<bool> mesh_is_pane_;
+  std::vector<TexturePyramid> pyramids_;  // one a texture; empty where none is looked up by footprint
+  std::vector<bool> mesh_has_pyramid_;
 };
 
 /// Turns both normals towards `to_viewer` and records which side that is.

@@ -280,6 +280,84 @@ TEST(Matter, TakesPlainNumbersAndVertexColours) {
   expect_near(matter.base, {0.125F, 0.25F, 0.5F});
 }
 
+/// Black and white texels by turns.
+Texture checker(std::uint32_t size) {
+  Texture texture{size, size, false, Texture::Wrap::kRepeat, Texture::Wrap::kRepeat, {}};
+  for (std::uint32_t i = 0; i < size * size; ++i) {
+    const std::uint8_t code = (i + i / size) % 2 == 0 ? 255 : 0;
+    texture.texels.push_back({code, code, code, 255});
+  }
+  return texture;
+}
+
+// Levels of a texture are coded to 16 bits.
+constexpr float kLevelCode = 0.5F / 65535 + 64 * 0x1p-24F;
+
+/// The base colour that a ray with a cone of this spread sees at slanted points of the picture, one metre away: least and most.
+std::pair<float, float> seen_range(const Scene& scene, float spread) {
+  const Surfaces surfaces(scene);
+  RandomSequence random(5);
+  float least = 1, most = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Hit hit{0, static_cast<std::uint32_t>(i % 2), random.uniform() / 2, random.uniform() / 2, 1};
+    const float base = surfaces.matter(surfaces.met(hit, {{0, 0, 1}, normalize(Vec3(0.6F, 0, -0.8F)), {0, spread, 1}})).base.r;
+    least = std::min(least, base), most = std::max(most, base);
+  }
+  return {least, most};
+}
+
+TEST(Met, ALineSeesTexelsAndAFarPixelTheMean) {
+  Scene scene = picture(checker(64));
+  scene.materials[0].base_color = Spectrum(1.0F);
+  scene.materials[0].base_texture.texture = 0;
+  const auto [dark, bright] = seen_range(scene, 0);
+  EXPECT_LT(dark, 0.1F);
+  EXPECT_GT(bright, 0.9F);
+  const auto [least, most] = seen_range(scene, 4.0F / 64);  // four texels a pixel: one sample is enough
+  EXPECT_NEAR(least, 0.5F, kLevelCode);
+  EXPECT_NEAR(most, 0.5F, kLevelCode);
+}
+
+TEST(Met, FiltersWhatLightIsProportionalToAndNothingElse) {
+  Scene scene = picture(checker(64));
+  Material& m = scene.materials[0];
+  for (TextureUse* use : texture_uses(m)) use->texture = 0;
+  m.base_color = m.emission = m.specular_color = m.sheen_color = Spectrum(1.0F);
+  m.metallic = m.transmission = m.clearcoat = m.clearcoat_roughness = m.sheen_roughness = 1;
+  const Surfaces surfaces(scene);
+  const Ray ray{{0, 0, 1}, {0, 0, -1}, {8.0F / 64, 0, 1}};
+  const Hit white{0, 0, 0, 0.5F / 64, 0};
+  const SurfacePoint wide = surfaces.met(white, ray), point = surfaces.at(white);
+  const Matter far = surfaces.matter(wide), near = surfaces.matter(point);
+  for (const float filtered : {far.base.g, far.specular_color.g, far.clearcoat, far.sheen.g, surfaces.emission(wide).g}) {
+    EXPECT_NEAR(filtered, 0.5F, kLevelCode);
+  }
+  EXPECT_EQ(far.metallic, near.metallic);
+  EXPECT_EQ(far.roughness, near.roughness);
+  EXPECT_EQ(far.transmission, near.transmission);
+  EXPECT_EQ(far.clearcoat_roughness, near.clearcoat_roughness);
+  EXPECT_EQ(far.sheen_roughness, near.sheen_roughness);
+  EXPECT_EQ(wide.shading_normal, point.shading_normal);
+  EXPECT_EQ(surfaces.coverage(white), 1);
+}
+
+TEST(Met, IsFacedAndCarriesItsCone) {
+  const Scene scene = three_quads();
+  const Surfaces surfaces(scene);
+  const SurfacePoint point = surfaces.met({0, 0, 0.25F, 0.25F, 3}, {{0, 0, -3}, {0, 0, 1}, {0.5F, 0.25F, 1}});
+  EXPECT_FALSE(point.is_front);
+  EXPECT_EQ(point.cone.width, 1.25F);
+  EXPECT_TRUE(point.footprint[0].is_point()) << "nothing is textured";
+}
+
+TEST(AtPart, IsTheMeanOfItsPart) {
+  Scene scene = picture(checker(64));
+  scene.materials[0].base_color = Spectrum(1.0F);
+  scene.materials[0].base_texture.texture = 0;
+  const Surfaces surfaces(scene);
+  EXPECT_NEAR(surfaces.matter(surfaces.at_part({0, 0, 0.3F, 0.3F, 0}, 0.25F)).base.r, 0.5F, kLevelCode);
+}
+
 TEST(Absorption, FollowsBeerAndLambertInsideAVolume) {
   Scene scene = textured();
   Material& m = scene.materials[0];
