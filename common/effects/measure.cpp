@@ -71,9 +71,7 @@ void measure_materials(const Scene& scene, Measurements& m) {
   for (const Instance& instance : scene.instances) used.insert(scene.meshes[instance.mesh].material);
   for (const std::uint32_t id : used) {
     const Material& material = scene.materials[id];
-    const bool is_textured = material.base_texture.is_used();
     m.max_reflectance = std::max(m.max_reflectance, max_component(mean_reflectance(fullest(material))));
-    m.min_reflectance = std::min(m.min_reflectance, is_textured ? 0 : min_component(material.base_color));
     m.color_deviation = std::max(m.color_deviation, deviation(material.base_color));
     m.max_radiance = std::max(m.max_radiance, luminance(material.emission));
     m.dispersive += material.asks_for(Material::kDispersion) ? 1 : 0;
@@ -120,6 +118,7 @@ Measurements measure(const World& world, const ViewSize& view, std::uint64_t see
   measure_light(world, m);
   measure_materials(world.scene, m);
   m.pilot = run_pilot(world, view.camera, view.width, view.height, seed);
+  m.trapped = find_trapped_light(world, seed);
   return m;
 }
 

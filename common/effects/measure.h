@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "effects/pilot.h"
+#include "effects/trapped_light.h"
 #include "scene/world.h"
 
 namespace radfarm {
@@ -21,7 +23,6 @@ struct Measurements {
   std::size_t ies_lights = 0;
   // Matter of the materials that are used
   float max_reflectance = 0;               // largest channel of any base colour, textures taken as 1
-  float min_reflectance = 1;               // smallest, textures taken as 0
   float color_deviation = 0;               // largest relative deviation of a reflectance's channel from its luminance
   float max_specular = 0;                  // largest mean reflectance of the specular layers, textures taken as 1
   std::size_t metals = 0, glossy = 0, mirrors = 0, coats = 0, mirror_coats = 0, sheens = 0, anisotropic = 0;  // materials
@@ -34,6 +35,7 @@ struct Measurements {
   float normal_map_angle = 0;              // largest, degrees
   std::size_t reflectance_textures = 0, emission_textures = 0, normal_maps = 0;
   Pilot pilot;
+  std::optional<TrappedLight> trapped;     // light that can never be lost
 };
 
 /// What of a view: its camera and its size in pixels.

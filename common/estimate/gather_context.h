@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "estimate/counters.h"
+#include "estimate/diffuse_light.h"
 #include "estimate/pixel_sampler.h"
 #include "scene/world.h"
 #include "senders/sender_grid.h"
@@ -18,12 +19,6 @@ struct GatherContext {
   const SenderGrid& senders;
   const SenderSettings& settings;
   bool has_interreflection = true;  // effect interreflection; off: `indirect` is neither computed nor returned
-};
-
-/// Irradiance at the visible point, direct and indirect apart, lux.
-struct Arrived {
-  Spectrum direct;
-  Spectrum indirect;
 };
 
 /// One visible point and all that its gather needs.

@@ -10,7 +10,7 @@ namespace radfarm {
 /// Everything that decides an image's bits besides scene and camera: what --quality and the flags resolve to. Recorded in
 /// the report and in the image's header, so that a render can be replayed exactly. Stored as it is; no padding.
 struct Settings {
-  enum class Integrator : std::uint32_t { kGather = 0, kPathTrace = 1 };
+  enum class Integrator : std::uint32_t { kGather = 0, kPathTrace = 1, kRadiosity = 2 };
   Integrator integrator = Integrator::kGather;
   std::int32_t width = 0;
   std::int32_t height = 0;
@@ -21,7 +21,7 @@ struct Settings {
   std::uint32_t audit_samples = 0;       // paths of each of the two estimates of an audited pixel
   std::uint32_t effects_off = 0;         // EffectSet: the image is rendered without these ...
   std::uint32_t exactly_off = 0;         // ... of which these change no image: the audit leaves them out too
-  std::uint32_t reserved = 0;
+  std::uint32_t draws_mesh = 0;          // 1: lines over the edges of the elements (radiosity)
   RadiositySettings radiosity;
   SenderSettings senders;
 };

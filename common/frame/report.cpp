@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frame/request.h"
+
 namespace radfarm {
 namespace {
 
@@ -49,11 +51,19 @@ void add_counts(json& counts, const Settings& settings, const Counters& c) {
   counts["grid_vertices_computed_by_workers"] = c.vertices_computed;
 }
 
+const char* name_of(Settings::Integrator integrator) {
+  switch (integrator) {
+    case Settings::Integrator::kGather: return "gather";
+    case Settings::Integrator::kPathTrace: return "path-trace";
+    case Settings::Integrator::kRadiosity: return "radiosity";
+  }
+  return "";
+}
+
 }  // namespace
 
 json to_json(const Settings& s) {
-  const bool is_gather = s.integrator == Settings::Integrator::kGather;
-  json out = {{"integrator", is_gather ? "gather" : "path-trace"},
+  json out = {{"integrator", name_of(s.integrator)},
               {"width", s.width},
               {"height", s.height},
               {"tile", s.tile},
@@ -62,14 +72,20 @@ json to_json(const Settings& s) {
               {"audit_pixels", s.audit_pixels},
               {"audit_samples", s.audit_samples},
               {"effects_off", s.effects_off}};
-  if (!is_gather) return out;
-  out["radiosity"] = {{"max_link_error", s.radiosity.max_link_error},
+  if (s.integrator == Settings::Integrator::kPathTrace) return out;
+  out["radiosity"] = {{"oracle", to_string(s.radiosity.oracle.criterion)},
+                      {"max_link_error", s.radiosity.max_link_error},
                       {"min_patch_area", s.radiosity.min_patch_area},
                       {"residual", s.radiosity.residual},
                       {"samples_per_link", s.radiosity.samples_per_link},
+                      {"direct_samples", s.radiosity.direct_samples},
                       {"hits_per_patch", s.radiosity.hits_per_patch},
                       {"max_links", s.radiosity.max_links},
                       {"max_passes", s.radiosity.max_passes}};
+  if (s.integrator == Settings::Integrator::kRadiosity) {
+    out["draws_mesh"] = s.draws_mesh != 0;
+    return out;
+  }
   out["senders"] = {{"threshold", s.senders.threshold},
                     {"grid", {s.senders.columns, s.senders.rows, s.senders.slices}},
                     {"max_senders", s.senders.max_senders},

@@ -31,6 +31,7 @@ struct Name {
 };
 constexpr std::array kIntegrators = {
     Name<Integrator>{Integrator::kAuto, "auto"},
+    Name<Integrator>{Integrator::kRadiosity, "radiosity"},
     Name<Integrator>{Integrator::kGather, "gather"},
     Name<Integrator>{Integrator::kFullGather, "full-gather"},
     Name<Integrator>{Integrator::kPathTrace, "path-trace"},
@@ -41,6 +42,8 @@ constexpr std::array kQualities = {
     Name<Quality>{Quality::kHigh, "high"},
     Name<Quality>{Quality::kReference, "reference"},
 };
+constexpr std::array kOracles = {Name<Oracle>{Oracle::kKs, "KS"}, Name<Oracle>{Oracle::kKl, "KL"}, Name<Oracle>{Oracle::kCs, "CS"},
+                                 Name<Oracle>{Oracle::kHe, "HE"}, Name<Oracle>{Oracle::kVar, "VAR"}};
 constexpr std::array kUpAxes = {Name<UpAxis>{UpAxis::kY, "Y"}, Name<UpAxis>{UpAxis::kZ, "Z"}};
 
 template <typename T, std::size_t N>
@@ -196,6 +199,13 @@ Status read(const Json& json, std::string_view key, Quality& out) {
   return {};
 }
 
+Status read(const Json& json, std::string_view key, Oracle& out) {
+  std::string text;
+  RADFARM_TRY_STATUS(read(json, key, text));
+  RADFARM_TRY(out, oracle_from_string(text));
+  return {};
+}
+
 Status read(const Json& json, std::string_view key, UpAxis& out) {
   std::string text;
   RADFARM_TRY_STATUS(read(json, key, text));
@@ -257,7 +267,9 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
   if (key == "tile") return read(value, key, request.tile);
   if (key == "samples") return read(value, key, request.samples);
   if (key == "threshold") return read(value, key, request.threshold);
+  if (key == "oracle") return read(value, key, request.oracle);
   if (key == "audit") return read(value, key, request.audit);
+  if (key == "mesh") return read(value, key, request.mesh);
   if (key == "effects") return read(value, key, request.effects);
   if (key == "env") return read(value, key, request.env);
   if (key == "ies") return read(value, key, request.ies);
@@ -283,6 +295,9 @@ Status validate(const RenderRequest& request) {
   if (request.focus_distance && !(*request.focus_distance > 0 && *request.focus_distance <= 1e18F)) {
     return invalid("--focus-distance is " + std::to_string(*request.focus_distance) + " m, must be positive and finite");
   }
+  if (request.mesh && request.integrator != Integrator::kRadiosity) {
+    return invalid("--mesh draws the elements of the radiosity solution: it needs --integrator radiosity");
+  }
   if (request.env.size() > kMaxText) return invalid("--env: is longer than " + std::to_string(kMaxText) + " bytes");
   if (request.ies.size() > kMaxIes) return invalid("--ies: more than " + std::to_string(kMaxIes) + " files");
   return check_effects(request.effects);
@@ -294,9 +309,11 @@ nlohmann::json to_json(const RenderRequest& request) {
                {"up", name_of(kUpAxes, request.up)},
                {"seed", request.seed},
                {"tile", request.tile},
+               {"oracle", to_string(request.oracle)},
                {"audit", request.audit},
                {"effects", request.effects},
                {"env", request.env}};
+  if (request.mesh) json["mesh"] = true;
   if (!request.ies.empty()) json["ies"] = request.ies;
   if (request.lens_diameter) json["lens_diameter"] = *request.lens_diameter;
   if (request.focus_distance) json["focus_distance"] = *request.focus_distance;
@@ -322,5 +339,9 @@ Result<Integrator> integrator_from_string(std::string_view name) { return value_
 std::string to_string(Quality quality) { return name_of(kQualities, quality); }
 
 Result<Quality> quality_from_string(std::string_view name) { return value_of(kQualities, "quality", name); }
+
+std::string to_string(Oracle oracle) { return name_of(kOracles, oracle); }
+
+Result<Oracle> oracle_from_string(std::string_view name) { return value_of(kOracles, "oracle", name); }
 
 }  // namespace radfarm

@@ -10,13 +10,14 @@
 
 #include "base/status.h"
 #include "math/vec.h"
+#include "radiosity/oracles.h"
 
 namespace radfarm {
 
 /// What a person asked for, as given: the flags of `radfarm render` that shape the image. prepare() turns it into resolved
 /// settings. Its JSON form crosses the network; docs/protocol.md lists the keys.
 struct RenderRequest {
-  enum class Integrator { kAuto, kGather, kFullGather, kPathTrace };
+  enum class Integrator { kAuto, kRadiosity, kGather, kFullGather, kPathTrace };
   enum class Quality { kPreview, kStandard, kHigh, kReference };
   enum class UpAxis { kY, kZ };
 
@@ -41,7 +42,9 @@ struct RenderRequest {
   int tile = 32;                          // pixels a side; never changes the image
   std::optional<int> samples;             // camera samples a pixel; by default from quality
   std::optional<float> threshold;         // largest accepted change of radiance, cd/m^2; by default from quality
+  Oracle oracle = LinkOracle().criterion;  // what judges the links of the radiosity solve
   bool audit = true;
+  bool mesh = false;                      // radiosity only: draws the edges of the elements; such an image is not audited
   std::string env;                        // "sky:..." (docs/sky.md), or a map beside the scene file; empty: the dark
   std::map<std::string, std::string> ies;  // light or node name -> IES file beside the scene file
   std::optional<float> lens_diameter;     // metres; default: the camera's, which is 0
@@ -62,5 +65,7 @@ std::string to_string(RenderRequest::Integrator integrator);                    
 Result<RenderRequest::Integrator> integrator_from_string(std::string_view name);  // lists the names when wrong
 std::string to_string(RenderRequest::Quality quality);
 Result<RenderRequest::Quality> quality_from_string(std::string_view name);
+std::string to_string(Oracle oracle);                                             // "KL"
+Result<Oracle> oracle_from_string(std::string_view name);
 
 }  // namespace radfarm

@@ -5,7 +5,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 /// Camera without its name: a fixed layout.
 struct StoredCamera {

@@ -19,6 +19,25 @@ std::array<std::uint8_t, 3> to_srgb(const Spectrum& color) {
   return {to_byte(color.r), to_byte(color.g), to_byte(color.b)};
 }
 
+struct Layout {
+  png_uint_32 width = 0, height = 0;
+  png_uint_32 format = PNG_FORMAT_RGB;
+};
+
+Result<std::vector<std::byte>> write_png(const Layout& layout, const void* pixels) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = layout.width;
+  png.height = layout.height;
+  png.format = layout.format;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::vector<std::byte> bytes(size);
+  const int written = png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr);
+  if (written == 0) return fail(Code::kInternal, std::string("cannot encode PNG: ") + png.message);
+  bytes.resize(size);
+  return bytes;
+}
+
 }  // namespace
 
 Result<std::vector<std::byte>> encode_png(const Image& image, float exposure_ev) {
@@ -30,18 +49,16 @@ Result<std::vector<std::byte>> encode_png(const Image& image, float exposure_ev)
     const std::array<std::uint8_t, 3> pixel = to_srgb(rgb.at(i) * gain);
     pixels.insert(pixels.end(), pixel.begin(), pixel.end());
   }
+  return write_png({static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), PNG_FORMAT_RGB},
+                   pixels.data());
+}
 
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-  std::vector<std::byte> bytes(size);
-  const int written = png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels.data(), 0, nullptr);
-  if (written == 0) return fail(Code::kInternal, std::string("cannot encode PNG: ") + png.message);
-  bytes.resize(size);
-  return bytes;
+Result<std::vector<std::byte>> encode_png(std::uint32_t width, std::uint32_t height,
+                                          std::span<const std::array<std::uint8_t, 4>> pixels) {
+  if (width == 0 || pixels.size() != static_cast<std::size_t>(width) * height) {
+    return fail(Code::kInvalidArgument, "cannot encode PNG: the pixels do not fill it");
+  }
+  return write_png({width, height, PNG_FORMAT_RGBA}, pixels.data());
 }
 
 }  // namespace radfarm

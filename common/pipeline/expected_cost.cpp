@@ -54,6 +54,12 @@ ExpectedCost expect_cost(const World& world, const Camera& camera, const Setting
   for (const Instance& instance : world.scene.instances) {
     triangles += static_cast<double>(world.scene.meshes[instance.mesh].triangles.size());
   }
+  if (settings.integrator == Settings::Integrator::kRadiosity) {
+    // Most samples cost the camera's ray alone; where all is gloss, some ten more.
+    cost.low = samples * pilot.ray_seconds + kLowPerTriangle * triangles + cost.audit;
+    cost.high = 10 * samples * pilot.ray_seconds + kHighPerTriangle * triangles + cost.audit;
+    return cost;
+  }
   const double gather = samples * static_cast<double>(settings.senders.samples_per_gather) * kTimesRays * pilot.ray_seconds;
   cost.low = 0.6 * gather + kLowPerTriangle * triangles + 0.5 * kSenders + cost.audit;
   cost.high = 1.7 * gather + kHighPerTriangle * triangles + 3 * kSenders + cost.audit;

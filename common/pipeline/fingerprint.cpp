@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "base/check.h"
 #include "base/digest.h"
+#include "base/file.h"
 #include "base/random.h"
 #include "scene/ray_caster.h"
 
@@ -94,6 +96,12 @@ std::string build_id() {
   id += ", checks";
 #endif
   return id;
+}
+
+std::string program_digest() {
+  const Result<MappedFile> program = MappedFile::open("/proc/self/exe");
+  RADFARM_CHECK(program);  // the programs find each other there, too
+  return sha256_hex(program->bytes());
 }
 
 std::string numeric_fingerprint(const RaySelfTest& rays) {

@@ -10,6 +10,9 @@ namespace radfarm {
 /// Names this build: version, compiler, instruction set, checks. Equal builds may share a job.
 std::string build_id();
 
+/// SHA-256 of the running program's file. Builds that are called the same differ in it while the code is worked on.
+std::string program_digest();
+
 /// What this machine's ray caster answers to fixed rays against a fixed scene; Hit() where a ray meets nothing.
 struct RaySelfTest {
   std::string caster;  // ray_caster_name()

@@ -2,18 +2,23 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/progress.h"
 #include "base/status.h"
 #include "frame/report.h"
 #include "frame/request.h"
 #include "frame/task.h"
 #include "image/image.h"
+#include "pipeline/solution_store.h"
 
 namespace radfarm {
 
@@ -27,9 +32,16 @@ struct PreparedFiles {
   std::vector<std::byte> view;      // camera, resolved settings, effects plan, grid, and what report() says of all stages
 };
 
+/// What prepare() may use besides scene and request. None of it changes a bit of scene, solution and image.
+struct PrepareContext {
+  SolutionStore solutions;  // light that was solved before is not solved again; keeps nothing by default
+  Progress progress;        // phases: load, acceleration, effects, radiosity and its parts, senders
+};
+
 /// Loads and validates a scene, plans its effects, solves radiosity, classifies senders for one view.
-/// Errors: what load_scene refuses, no emitter, a camera that does not exist. Cost: seconds; uses all threads.
-Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request);
+/// Errors: what load_scene refuses, no emitter, a camera that does not exist, CANCELLED. Cost: seconds; uses all threads.
+Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request,
+                              const PrepareContext& context = {});
 
 /// The tasks of a prepared view, in the order in which they are best run. Tiles, then audit tasks.
 Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view);
@@ -64,6 +76,18 @@ struct Finished {
 /// INTERNAL when the share of dropped samples is above its limit.
 Result<Finished> finish(std::span<const std::byte> view, std::span<const std::vector<std::byte>> results,
                         const FarmFacts& farm);
+
+/// `radfarm bake`: the radiosity solution of a scene as a glTF binary with vertex colours, for walk-throughs (docs/formats.md).
+struct Baked {
+  std::vector<std::byte> glb;
+  float exposure_ev = 0;
+  std::size_t elements = 0;  // undivided ones
+  std::size_t triangles = 0;
+};
+/// Of `request` the light, the quality, the seed and the effects count. By default, the exposure makes the mean middle grey.
+/// Errors as prepare(). Uses all threads.
+Result<Baked> bake(const std::filesystem::path& scene_file, const RenderRequest& request,
+                   const std::optional<float>& exposure_ev = {}, const PrepareContext& context = {});
 
 /// What `radfarm explain` and `radfarm info` print.
 Result<nlohmann::json> explain(const std::filesystem::path& scene_file, const RenderRequest& request);

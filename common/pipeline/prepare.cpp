@@ -1,9 +1,11 @@
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "bake/baked_gltf.h"
 #include "base/digest.h"
 #include "base/stopwatch.h"
 #include "effects/measure.h"
@@ -12,11 +14,12 @@
 #include "pipeline/expected_cost.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/resolve.h"
+#include "pipeline/solve_light.h"
 #include "scene/light_scene.h"
 #include "scene/load_scene.h"
 #include "scene/scene_file.h"
 #include "scene/summary.h"
-#include "radiosity/solve.h"
+#include "radiosity/element_mesh_file.h"
 #include "scene/world.h"
 #include "senders/sender_grid.h"
 
@@ -45,21 +48,33 @@ LoadOptions load_options(const RenderRequest& request) {
   return options;
 }
 
-/// A scene without light, or whose light can never be lost, has no image.
-Status check_light(const Scene& scene, const Measurements& m) {
+/// The light source as a person knows it: by its material, or by its own name.
+std::string name_of_emitter(const World& world, std::size_t emitter) {
+  const std::vector<EmissiveTriangle>& triangles = world.emitters.triangles;
+  if (emitter >= triangles.size()) return "light \"" + world.emitters.punctual[emitter - triangles.size()].name + "\"";
+  const std::uint32_t mesh = world.scene.instances[triangles[emitter].instance].mesh;
+  return "material \"" + world.scene.materials[world.scene.meshes[mesh].material].name + "\"";
+}
+
+Status refuse_trapped(const World& world, const TrappedLight& trapped) {
+  const std::string channel = std::array{"red", "green", "blue"}[trapped.channel];
+  return fail(Code::kInvalidArgument,
+              "no light can be lost: the " + channel + " light of " + name_of_emitter(world, trapped.emitter) +
+                  " stays where every surface reflects all of it (none lost in " + std::to_string(trapped.reflections) +
+                  " reflections); lower a reflectance there below 1 or open it");
+}
+
+/// A scene without light, or with light that can never be lost, has no image.
+Status check_light(const World& world, const Measurements& m) {
   const bool is_declared = m.emissive_triangles > 0 || m.punctual_lights > 0 || m.has_environment;
-  if (!is_declared && scene.instances.empty()) {
+  if (!is_declared && world.scene.instances.empty()) {
     return fail(Code::kInvalidArgument, "the scene has no triangles: points and lines are not rendered");
   }
   if (!is_declared) {
     return fail(Code::kInvalidArgument,
                 "the scene has no emitter: give it an emissive material, a light (KHR_lights_punctual), or --env");
   }
-  if (m.emitted_flux > 0 && m.pilot.walks > 0 && m.pilot.escaped == 0 && m.min_reflectance >= 1) {
-    return fail(Code::kInvalidArgument,
-                "no light can be lost: every surface reflects all of it and none of " + std::to_string(m.pilot.walks) +
-                    " walks left the scene; lower a reflectance below 1 or open the scene");
-  }
+  if (m.trapped) return refuse_trapped(world, *m.trapped);
   return {};
 }
 
@@ -106,6 +121,7 @@ json warnings(const Planned& planned) {
   json lines = json::array();
   for (const std::string& note : planned.world->scene.notes) lines.push_back(note);
   if (planned.camera.is_framed) lines.push_back("the file has no camera: framed the bulk of the geometry");
+  if (planned.settings.draws_mesh != 0) lines.push_back("--mesh draws over the image: it is not audited");
   if (planned.measurements.has_environment && !planned.plan.is_active("environment")) {
     lines.push_back("the sky is left out: none of " + std::to_string(planned.measurements.pilot.walks) +
                     " walks left the scene; --effects +environment keeps it");
@@ -114,20 +130,26 @@ json warnings(const Planned& planned) {
   return lines;
 }
 
-Result<Planned> plan(const std::filesystem::path& scene_file, const RenderRequest& request, StageClock& clock) {
+Result<Planned> plan(const std::filesystem::path& scene_file, const RenderRequest& request, const Progress& progress,
+                     StageClock& clock) {
   RADFARM_TRY_STATUS(validate(request));
   Planned planned;
+  progress.report("load");
   RADFARM_TRY(Scene scene, load_scene(scene_file, load_options(request)));
   RADFARM_TRY_STATUS(light_scene({request.env, request.ies}, scene_file.parent_path(), scene));
   planned.scene_bytes = encode_scene(scene);
   clock.end_stage("load");
+  RADFARM_TRY_STATUS(progress.check());
+  progress.report("acceleration");
   planned.world = std::make_unique<World>(std::move(scene));
   clock.end_stage("acceleration");
+  RADFARM_TRY_STATUS(progress.check());
+  progress.report("effects");
   RADFARM_TRY(planned.camera, choose_camera(planned.world->scene, request));
   planned.settings = resolve_settings(request, planned.camera.camera);
   const ViewSize size{planned.camera.camera, planned.settings.width, planned.settings.height};
   planned.measurements = measure(*planned.world, size, request.seed);
-  RADFARM_TRY_STATUS(check_light(planned.world->scene, planned.measurements));
+  RADFARM_TRY_STATUS(check_light(*planned.world, planned.measurements));
   const bool is_path = planned.settings.integrator == Settings::Integrator::kPathTrace;
   RADFARM_TRY(planned.plan, plan_effects(planned.measurements, is_path ? Transport::kPathTrace : Transport::kGather,
                                          request.effects));
@@ -156,58 +178,67 @@ json energy_json(const EnergyLedger& energy) {
           {"closure_error", energy.closure_error}};
 }
 
-/// What sends light when none is reflected: the emitters.
-RadiositySolution emitters_alone(const World& world, std::uint64_t seed) {
-  RadiositySolution solution;
-  const SideNumbers sides(world.scene);
-  solution.hierarchy = build_hierarchy(world, sides, reachable_sides(world, sides, seed));
-  solution.reflected_power.resize(solution.hierarchy.nodes.size());
-  return solution;
+/// The light of a world as planned, and what the report says of it.
+Result<SolvedLight> obtain_light(const World& world, const RenderRequest& request, const PrepareContext& context,
+                                 LightForm form, Planned& planned) {
+  const bool is_reflecting = planned.plan.is_active("interreflection");
+  RADFARM_TRY(ObtainedLight obtained, obtain_light(world, {planned.settings.radiosity, request.seed, is_reflecting, form},
+                                                   context.solutions, context.progress));
+  const SolvedLight::Facts& facts = obtained.light.facts;
+  planned.facts["counts"]["links"] = facts.links;
+  planned.facts["counts"]["elements"] = facts.elements;
+  planned.facts["counts"]["radiosity_iterations"] = facts.iterations;
+  if (is_reflecting) planned.facts["energy"] = energy_json(facts.energy);
+  planned.facts["solution"] = {{"digest", obtained.light.digest}, {"reused", obtained.is_reused}};
+  return std::move(obtained.light);
 }
 
-/// Radiosity, senders and grid of a view that gathers.
-void prepare_gather(Planned& planned, const RenderRequest& request, StageClock& clock, View& view,
-                    PreparedFiles& files) {
-  std::optional<World> specialised;
-  const EffectSet off = planned.settings.effects_off;
-  if (changes_scene(off)) specialised.emplace(specialise(planned.world->scene, off));
-  const World& world = specialised ? *specialised : *planned.world;
-  const bool is_reflecting = planned.plan.is_active("interreflection");
-  const RadiositySolution solution = is_reflecting
-                                         ? solve_radiosity(world, planned.settings.radiosity, request.seed)
-                                         : emitters_alone(world, request.seed);
-  planned.facts["counts"]["links"] = solution.links;
-  planned.facts["counts"]["elements"] = solution.hierarchy.patches.size();
-  planned.facts["counts"]["radiosity_iterations"] = solution.iterations;
-  if (is_reflecting) planned.facts["energy"] = energy_json(solution.energy);
-  const SenderTree tree = make_sender_tree(solution);
-  files.solution = encode(tree);
-  planned.facts["solution"] = {{"digest", sha256_hex(files.solution)}, {"reused", false}};
-  clock.end_stage("radiosity");
-
+/// Senders and grid of a view that gathers.
+Status prepare_gather(const World& world, const SolvedLight& light, const RenderRequest& request,
+                      const PrepareContext& context, StageClock& clock, Planned& planned, View& view) {
+  RADFARM_TRY(const SenderTree tree, decode_sender_tree(light.file));
   Settings& settings = view.settings;
   const bool is_full = request.integrator == RenderRequest::Integrator::kFullGather;
   if (is_full) settings.senders.threshold = 0;
-  if (!is_full && !request.threshold && !solution.hierarchy.nodes.empty()) {
-    settings.senders.threshold = default_threshold(solution, threshold_share(request.quality));
+  if (!is_full && !request.threshold) {
+    settings.senders.threshold = threshold_share(request.quality) * static_cast<float>(light.facts.mean_radiance);
   }
   const SenderGridFile grid = classify_visible(world, tree, view.camera, settings.width, settings.height,
-                                               settings.senders, settings.seed);
+                                               settings.senders, settings.seed, context.progress);
+  RADFARM_TRY_STATUS(context.progress.check());
   view.grid = encode(grid);
   planned.facts["counts"]["grid_vertices"] = grid.grid.vertex_count();
   planned.facts["counts"]["grid_vertices_used"] = grid.vertices.size();
   clock.end_stage("senders");
+  return {};
+}
+
+/// Radiosity in the scene without the effects that are off, and what the integrator makes of it.
+Status prepare_light(const RenderRequest& request, const PrepareContext& context, StageClock& clock, Planned& planned,
+                     View& view, PreparedFiles& files) {
+  std::optional<World> specialised;
+  const EffectSet off = planned.settings.effects_off;
+  if (changes_scene(off)) specialised.emplace(specialise(planned.world->scene, off));
+  const World& world = specialised ? *specialised : *planned.world;
+  const bool is_shown = view.settings.integrator == Settings::Integrator::kRadiosity;
+  const LightForm form = is_shown ? LightForm::kElements : LightForm::kSenders;
+  RADFARM_TRY(SolvedLight light, obtain_light(world, request, context, form, planned));
+  clock.end_stage("radiosity");
+  if (!is_shown) RADFARM_TRY_STATUS(prepare_gather(world, light, request, context, clock, planned, view));
+  files.solution = std::move(light.file);
+  return {};
 }
 
 }  // namespace
 
-Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request) {
+Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request,
+                              const PrepareContext& context) {
   StageClock clock;
-  RADFARM_TRY(Planned planned, plan(scene_file, request, clock));
+  RADFARM_TRY(Planned planned, plan(scene_file, request, context.progress, clock));
   PreparedFiles files;
   View view{planned.camera.camera, planned.settings, "", {}};
-  if (view.settings.integrator == Settings::Integrator::kGather) {
-    prepare_gather(planned, request, clock, view, files);
+  if (view.settings.integrator != Settings::Integrator::kPathTrace) {
+    RADFARM_TRY_STATUS(prepare_light(request, context, clock, planned, view, files));
   }
   planned.facts["stages"] = clock.stages();
   planned.facts["peak_memory_bytes"] = peak_memory_bytes();
@@ -217,9 +248,26 @@ Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const Ren
   return files;
 }
 
+Result<Baked> bake(const std::filesystem::path& scene_file, const RenderRequest& request,
+                   const std::optional<float>& exposure_ev, const PrepareContext& context) {
+  StageClock clock;
+  RADFARM_TRY(Planned planned, plan(scene_file, request, context.progress, clock));
+  const World world(specialise(planned.world->scene, planned.settings.effects_off));
+  RADFARM_TRY(const SolvedLight light, obtain_light(world, request, context, LightForm::kElements, planned));
+  RADFARM_TRY(const ElementMesh mesh, decode_element_mesh(light.file, SideNumbers(world.scene).count));
+  Baked baked;
+  baked.exposure_ev = exposure_ev ? *exposure_ev : auto_exposure(world, mesh);
+  const BakedScene scene = bake_mesh(world, mesh, baked.exposure_ev);
+  for (const BakedMesh& one : scene.meshes) baked.triangles += one.triangles.size();
+  for (const Element& element : mesh.elements) baked.elements += element.is_undivided() ? 1 : 0;
+  const json extras = {{"scene_digest", planned.facts["scene"]["digest"]}, {"requested", to_json(request)}};
+  RADFARM_TRY(baked.glb, encode_baked_glb(scene, world, extras));
+  return baked;
+}
+
 Result<json> explain(const std::filesystem::path& scene_file, const RenderRequest& request) {
   StageClock clock;
-  RADFARM_TRY(Planned planned, plan(scene_file, request, clock));
+  RADFARM_TRY(Planned planned, plan(scene_file, request, Progress(), clock));
   planned.facts["settings"]["resolved"] = to_json(planned.settings);
   const ExpectedCost cost = expect_cost(*planned.world, planned.camera.camera, planned.settings);
   planned.facts["expected"] = {{"cpu_s", {cost.low, cost.high}}, {"audit_cpu_s", cost.audit}, {"ray_s", cost.ray_seconds}};

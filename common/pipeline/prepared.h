@@ -6,6 +6,7 @@
 #include "effects/specialise.h"
 #include "frame/view.h"
 #include "pipeline/pipeline.h"
+#include "radiosity/element_mesh.h"
 #include "scene/world.h"
 #include "senders/sender_grid.h"
 #include "senders/sender_lookup.h"
@@ -25,6 +26,8 @@ struct Prepared::Parts {
   const SenderTree tree;              // empty unless the integrator gathers
   std::optional<SenderLookup> lookup;
   std::optional<SenderGrid> senders;
+  std::optional<ElementMesh> mesh;    // of the integrator radiosity
+  std::optional<SideNumbers> sides;   // with it
   bool is_exact() const { return view.settings.effects_off == view.settings.exactly_off; }
   /// With all effects but those that change nothing: made when an audit task first asks; the same world where it can be.
   const World& audited() const;

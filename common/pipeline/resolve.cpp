@@ -19,6 +19,8 @@ struct QualityRow {
   std::uint32_t audit_pixels;
   std::uint32_t audit_samples;
   float max_link_error;
+  std::uint32_t direct_samples;
+  std::uint32_t hits_per_patch;
   std::uint32_t grid_columns;
   std::uint32_t max_senders;
   std::uint32_t vertex_samples;
@@ -27,10 +29,10 @@ struct QualityRow {
 };
 
 constexpr QualityRow kQuality[] = {
-    {16, 4, 512, 32, 1e-4F, 16, 200, 600, 8, .04F},
-    {64, 16, 1024, 64, 2e-5F, 24, 400, 1200, 12, .02F},
-    {256, 64, 2048, 128, 1e-5F, 32, 800, 2400, 16, .01F},
-    {1024, 256, 4096, 256, 5e-6F, 48, 1600, 4800, 24, .004F},
+    {16, 4, 512, 32, 1e-4F, 1, 2, 16, 200, 600, 8, .04F},
+    {64, 16, 1024, 64, 2e-5F, 2, 4, 24, 400, 1200, 12, .02F},
+    {256, 64, 2048, 128, 1e-5F, 4, 8, 32, 800, 2400, 16, .01F},
+    {1024, 256, 4096, 256, 5e-6F, 8, 16, 48, 1600, 4800, 24, .004F},
 };
 
 void resolve_size(const RenderRequest& request, const Camera& camera, Settings& settings) {
@@ -43,6 +45,14 @@ void resolve_size(const RenderRequest& request, const Camera& camera, Settings& 
 }  // namespace
 
 namespace {
+
+Settings::Integrator integrator_of(const RenderRequest& request) {
+  switch (request.integrator) {
+    case RenderRequest::Integrator::kPathTrace: return Settings::Integrator::kPathTrace;
+    case RenderRequest::Integrator::kRadiosity: return Settings::Integrator::kRadiosity;
+    default: return Settings::Integrator::kGather;
+  }
+}
 
 /// What the request says of film and lens goes before what the file says.
 ChosenCamera with_lens(Camera camera, bool is_framed, const RenderRequest& request) {
@@ -80,28 +90,33 @@ float threshold_share(RenderRequest::Quality quality) {
   return kQuality[static_cast<std::size_t>(quality)].threshold_share;
 }
 
-float default_threshold(const RadiositySolution& solution, float share) {
+float mean_radiance(const RadiositySolution& solution) {
   if (solution.hierarchy.nodes.empty()) return 0;
   const Node& root = solution.hierarchy.nodes[0];
   // Where nothing was solved, what the emitters' light would give once reflected stands in.
   const bool is_solved = !is_black(solution.reflected_power[0]);
   const Spectrum power = is_solved ? solution.reflected_power[0] : root.emitted_power * root.reflectance;
-  return share * static_cast<float>(luminance(SpectrumD(power)) / (std::numbers::pi * static_cast<double>(root.area)));
+  return static_cast<float>(luminance(SpectrumD(power)) / (std::numbers::pi * static_cast<double>(root.area)));
 }
 
 Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   const QualityRow& quality = kQuality[static_cast<std::size_t>(request.quality)];
   const bool is_path = request.integrator == RenderRequest::Integrator::kPathTrace;
   Settings settings;
-  settings.integrator = is_path ? Settings::Integrator::kPathTrace : Settings::Integrator::kGather;
+  settings.integrator = integrator_of(request);
   resolve_size(request, camera, settings);
   settings.tile = request.tile;
   settings.seed = request.seed;
   settings.camera_samples = request.samples ? static_cast<std::uint32_t>(*request.samples)
                                             : (is_path ? quality.path_samples : quality.gather_samples);
-  settings.audit_pixels = request.audit ? quality.audit_pixels : 0;
-  settings.audit_samples = request.audit ? quality.audit_samples : 0;
+  const bool has_audit = request.audit && !request.mesh;
+  settings.audit_pixels = has_audit ? quality.audit_pixels : 0;
+  settings.audit_samples = has_audit ? quality.audit_samples : 0;
+  settings.draws_mesh = request.mesh ? 1 : 0;
   settings.radiosity.max_link_error = quality.max_link_error;
+  settings.radiosity.direct_samples = quality.direct_samples;
+  settings.radiosity.hits_per_patch = quality.hits_per_patch;
+  settings.radiosity.oracle.criterion = request.oracle;
   settings.senders.columns = quality.grid_columns;
   settings.senders.rows = std::max(2U, static_cast<std::uint32_t>(std::lround(
                                            quality.grid_columns * static_cast<double>(settings.height) / settings.width)));

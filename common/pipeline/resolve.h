@@ -19,8 +19,8 @@ Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& requ
 /// here and are set by prepare(). Pure.
 Settings resolve_settings(const RenderRequest& request, const Camera& camera);
 
-/// The sender threshold that a quality stands for, as a share of the scene's mean radiance; and the threshold itself.
+/// The sender threshold that a quality stands for, as a share of the scene's mean radiance; and that mean, cd/m^2.
 float threshold_share(RenderRequest::Quality quality);
-float default_threshold(const RadiositySolution& solution, float share);
+float mean_radiance(const RadiositySolution& solution);
 
 }  // namespace radfarm

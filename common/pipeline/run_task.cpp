@@ -1,10 +1,12 @@
 #include <algorithm>
 
 #include "estimate/gather.h"
+#include "estimate/mesh_lines.h"
 #include "estimate/path_reference.h"
 #include "estimate/task_result.h"
 #include "frame/tasks.h"
 #include "pipeline/prepared.h"
+#include "radiosity/element_mesh_file.h"
 #include "scene/scene_file.h"
 
 namespace radfarm {
@@ -22,7 +24,16 @@ SampleRadiance path_integrator(const World& world, bool has_interreflection) {
   };
 }
 
-SampleRadiance integrator(const Prepared::Parts& parts) {
+SampleRadiance gouraud_integrator(const Prepared::Parts& parts, const Film& film) {
+  const GouraudContext context{parts.world, *parts.mesh, *parts.sides};
+  const SampleRadiance shaded = [context](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
+    return gouraud_radiance(context, ray, sampler, counters);
+  };
+  return parts.view.settings.draws_mesh != 0 ? with_mesh_lines(shaded, context, film) : shaded;
+}
+
+SampleRadiance integrator(const Prepared::Parts& parts, const Film& film) {
+  if (parts.mesh) return gouraud_integrator(parts, film);
   if (!parts.senders) return path_integrator(parts.world, parts.has_interreflection());
   const GatherContext context{parts.world, parts.tree, *parts.lookup, *parts.senders, parts.view.settings.senders,
                               parts.has_interreflection()};
@@ -37,7 +48,7 @@ std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t inde
   result.rect = tile_rect(settings, index);
   Film film = film_of(parts.view, settings.effects_off);
   film.cone_samples = settings.camera_samples;
-  result.pixels = render_tile(film, result.rect, settings.camera_samples, integrator(parts), result.counters);
+  result.pixels = render_tile(film, result.rect, settings.camera_samples, integrator(parts, film), result.counters);
   return encode(result);
 }
 
@@ -77,12 +88,21 @@ Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<cons
   RADFARM_TRY(View opened, decode_view(view));
   RADFARM_TRY(Scene decoded, decode_scene(scene));
   const Settings settings = opened.settings;
+  const std::vector<std::byte> grid_bytes = std::move(opened.grid);  // not kept once it is decoded
   if (settings.integrator == Settings::Integrator::kPathTrace) {
     return Prepared(std::make_unique<Parts>(std::move(opened), std::move(decoded), SenderTree()));
   }
+  if (settings.integrator == Settings::Integrator::kRadiosity) {
+    const SideNumbers sides(decoded);
+    RADFARM_TRY(ElementMesh mesh, decode_element_mesh(solution, sides.count));
+    auto parts = std::make_unique<Parts>(std::move(opened), std::move(decoded), SenderTree());
+    parts->mesh = std::move(mesh);
+    parts->sides = sides;
+    return Prepared(std::move(parts));
+  }
   RADFARM_TRY(SenderTree tree, decode_sender_tree(solution));
   auto parts = std::make_unique<Parts>(std::move(opened), std::move(decoded), std::move(tree));
-  RADFARM_TRY(SenderGridFile grid, decode_sender_grid(parts->view.grid, parts->view.camera, parts->tree,
+  RADFARM_TRY(SenderGridFile grid, decode_sender_grid(grid_bytes, parts->view.camera, parts->tree,
                                                       parts->world.environment.patches().size()));
   parts->lookup.emplace(parts->world, parts->tree);
   parts->senders.emplace(std::move(grid), parts->world, parts->tree, parts->view.settings.senders, settings.seed);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/parallel.h"
 #include "base/random.h"
 #include "math/sampling.h"
 #include "math/sobol.h"
@@ -13,18 +12,8 @@ namespace radfarm {
 namespace {
 
 constexpr std::uint64_t kDirectKey = 0x646972;  // "dir"
-constexpr std::uint32_t kMinSamples = 4;
 constexpr std::uint32_t kMaxSamples = 256;
-constexpr float kSamplesPerScene = 4e5F;  // spread over the area, besides kMinSamples a patch
-
-/// A point of the patch with the shading normal that a viewer sees there.
-SurfacePoint point_on(const World& world, const Patch& patch, const Vec2& u) {
-  const Vec3 b = sample_uniform_triangle(u);
-  const Vec3 position = patch.vertices[0] * b.x + patch.vertices[1] * b.y + patch.vertices[2] * b.z;
-  SurfacePoint point = world.surfaces.at(world.surfaces.hit_at(patch.instance, patch.triangle, position));
-  face(point, patch.normal);
-  return point;
-}
+constexpr float kSamplesPerScene = 4e5F;  // spread over the area, besides the least of each patch
 
 /// Irradiance from a sampled emitter.
 Spectrum by_next_event(const World& world, const SurfacePoint& point, float choice, const Vec2& u) {
@@ -56,7 +45,7 @@ Spectrum by_ray(const World& world, const SurfacePoint& point, const Vec2& u, st
 Spectrum sample_patch(const World& world, const Patch& patch, std::uint32_t samples, std::uint64_t key) {
   SpectrumD sum;
   for (std::uint32_t i = 0; i < samples; ++i) {
-    const SurfacePoint point = point_on(world, patch, sobol_owen_2d(i, combine(key, 1)));
+    const SurfacePoint point = point_on_patch(world, patch, sobol_owen_2d(i, combine(key, 1)));
     sum += SpectrumD(by_next_event(world, point, sobol_owen_1d(i, combine(key, 2)), sobol_owen_2d(i, combine(key, 3))));
     sum += SpectrumD(by_ray(world, point, sobol_owen_2d(i, combine(key, 4)), combine(key, 5, i)));
   }
@@ -65,14 +54,23 @@ Spectrum sample_patch(const World& world, const Patch& patch, std::uint32_t samp
 
 }  // namespace
 
-void sample_direct(const World& world, const Hierarchy& hierarchy, std::uint64_t seed, std::vector<Spectrum>& direct) {
+SurfacePoint point_on_patch(const World& world, const Patch& patch, const Vec2& u) {
+  const Vec3 b = sample_uniform_triangle(u);
+  const Vec3 position = patch.vertices[0] * b.x + patch.vertices[1] * b.y + patch.vertices[2] * b.z;
+  SurfacePoint point = world.surfaces.at(world.surfaces.hit_at(patch.instance, patch.triangle, position));
+  face(point, patch.normal);
+  return point;
+}
+
+void sample_direct(const World& world, const Hierarchy& hierarchy, std::uint32_t min_samples, std::uint64_t seed,
+                   std::vector<Spectrum>& direct, const Progress& progress) {
   direct.resize(hierarchy.nodes.size(), kNotSampled);
   const float per_area = kSamplesPerScene / hierarchy.nodes[0].area;
-  parallel_for(hierarchy.nodes.size(), 512, [&](std::size_t begin, std::size_t end) {
+  parallel_for(progress, "radiosity: direct light", hierarchy.nodes.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Node& node = hierarchy.nodes[i];
       if (node.is_cluster() || node.child_count > 0 || direct[i] != kNotSampled) continue;
-      const auto samples = std::clamp(static_cast<std::uint32_t>(node.area * per_area), kMinSamples, kMaxSamples);
+      const auto samples = std::clamp(static_cast<std::uint32_t>(node.area * per_area), min_samples, std::max(min_samples, kMaxSamples));
       direct[i] = sample_patch(world, hierarchy.patches[node.patch], samples, combine(seed, kDirectKey, i));
     }
   });

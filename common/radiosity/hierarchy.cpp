@@ -8,33 +8,33 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "math/sampling.h"
+#include "radiosity/cluster_split.h"
+#include "scene/texture_uses.h"
 
 namespace radfarm {
 namespace {
 
-// A patch longer than this share of its group's diagonal is split off before the rest is grouped.
-constexpr float kLargeShare = 0.3F;
-// Weight of orientation against place when groups are split: opposite normals are as far apart as this many diagonals.
-constexpr float kNormalWeight = 0.35F;
 // A side of a triangle is cut in so many for its mean: textures are averaged over each part, all else is taken at its middle.
 constexpr int kLattice = 4;
 
-struct Item {
-  Vec3 centroid;
-  Vec3 normal;
-  float diameter = 0;
-  std::uint32_t patch = 0;
-};
+/// Whether a mesh is the same all over: no texture, no vertex colours.
+bool is_plain(const Scene& scene, std::uint32_t instance) {
+  const Mesh& mesh = scene.meshes[scene.instances[instance].mesh];
+  const auto uses = texture_uses(scene.materials[mesh.material]);
+  return mesh.colors.empty() && std::all_of(uses.begin(), uses.end(), [](const TextureUse* use) { return use->texture == kNone; });
+}
 
 void average_material(const World& world, const Hit& corner, bool is_front, Patch& patch) {
   SpectrumD reflectance, emission;
+  const int lattice = is_plain(world.scene, corner.instance) ? 1 : kLattice;
+  const float size = 1.0F / static_cast<float>(lattice);
   int count = 0;
-  for (int i = 0; i < kLattice; ++i) {
-    for (int j = 0; j < kLattice - i; ++j) {
+  for (int i = 0; i < lattice; ++i) {
+    for (int j = 0; j < lattice - i; ++j) {
       Hit hit = corner;
-      hit.u = (static_cast<float>(i) + 1.0F / 3) / kLattice;
-      hit.v = (static_cast<float>(j) + 1.0F / 3) / kLattice;
-      SurfacePoint point = world.surfaces.at_part(hit, 1.0F / kLattice);
+      hit.u = (static_cast<float>(i) + 1.0F / 3) * size;
+      hit.v = (static_cast<float>(j) + 1.0F / 3) * size;
+      SurfacePoint point = world.surfaces.at_part(hit, size);
       point.is_front = is_front;
       const auto coverage = static_cast<double>(world.surfaces.coverage(hit));
       reflectance += coverage * SpectrumD(world.surfaces.reflectance(point));
@@ -63,46 +63,16 @@ Patch make_patch(const World& world, std::uint32_t instance, std::uint32_t trian
   return patch;
 }
 
-Item make_item(const Patch& patch, std::uint32_t id) {
+ClusterItem make_item(const Patch& patch, std::uint32_t id) {
   const TriangleVertices& v = patch.vertices;
-  return {(v[0] + v[1] + v[2]) / 3, patch.normal,
-          std::max({length(v[1] - v[0]), length(v[2] - v[1]), length(v[0] - v[2])}), id};
-}
-
-std::array<float, 6> key_of(const Item& item, float normal_scale) {
-  const Vec3 n = item.normal * normal_scale;
-  return {item.centroid.x, item.centroid.y, item.centroid.z, n.x, n.y, n.z};
-}
-
-/// Orders the items so that the first `returned` of them form one child and the rest the other.
-std::size_t split(const Hierarchy& hierarchy, std::span<Item> items) {
-  Box3 box;
-  float mean_diameter = 0;
-  for (const Item& item : items) {
-    for (const Vec3& v : hierarchy.patches[item.patch].vertices) box.extendBy(v);
-    mean_diameter += item.diameter / static_cast<float>(items.size());
-  }
-  const float large = kLargeShare * length(box.size());
-  const auto middle = std::stable_partition(items.begin(), items.end(), [&](const Item& i) { return i.diameter > large; });
-  if (middle != items.begin() && middle != items.end()) return static_cast<std::size_t>(middle - items.begin());
-
-  const float normal_scale = kNormalWeight * std::max(length(box.size()), mean_diameter);
-  std::array<float, 6> low, high;
-  low.fill(std::numeric_limits<float>::infinity());
-  high.fill(-std::numeric_limits<float>::infinity());
-  for (const Item& item : items) {
-    const auto key = key_of(item, normal_scale);
-    for (std::size_t k = 0; k < 6; ++k) low[k] = std::min(low[k], key[k]), high[k] = std::max(high[k], key[k]);
-  }
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 6; ++k) axis = high[k] - low[k] > high[axis] - low[axis] ? k : axis;
-  const std::size_t half = items.size() / 2;
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
-                   [&](const Item& a, const Item& b) {
-                     const float ka = key_of(a, normal_scale)[axis], kb = key_of(b, normal_scale)[axis];
-                     return ka != kb ? ka < kb : a.patch < b.patch;
-                   });
-  return half;
+  ClusterItem item;
+  for (const Vec3& vertex : v) item.bounds.extendBy(vertex);
+  item.centroid = (v[0] + v[1] + v[2]) / 3;
+  item.normal = patch.normal;
+  item.area = area_of(v);
+  item.diameter = std::max({length(v[1] - v[0]), length(v[2] - v[1]), length(v[0] - v[2])});
+  item.patch = id;
+  return item;
 }
 
 void fill_from_patch(const Patch& patch, Node& node) {
@@ -141,11 +111,12 @@ void fill_from_children(const Hierarchy& hierarchy, Node& node) {
 struct PendingRange {
   std::uint32_t node;
   std::size_t begin, end;
+  int depth;
 };
 
-void build_tree(Hierarchy& hierarchy, std::vector<Item>& items) {
+void build_tree(Hierarchy& hierarchy, std::vector<ClusterItem>& items) {
   hierarchy.nodes.resize(1);
-  std::vector<PendingRange> pending = {{0, 0, items.size()}};
+  std::vector<PendingRange> pending = {{0, 0, items.size(), 0}};
   hierarchy.leaves.resize(items.size());
   while (!pending.empty()) {
     const PendingRange range = pending.back();
@@ -157,14 +128,14 @@ void build_tree(Hierarchy& hierarchy, std::vector<Item>& items) {
       hierarchy.leaves[range.begin] = range.node;
       continue;
     }
-    const std::size_t first = split(hierarchy, std::span(items).subspan(range.begin, range.end - range.begin));
+    const std::size_t first = split_items(std::span(items).subspan(range.begin, range.end - range.begin), range.depth);
     const auto child = static_cast<std::uint32_t>(hierarchy.nodes.size());
     hierarchy.nodes[range.node].first_child = child;
     hierarchy.nodes[range.node].child_count = 2;
     hierarchy.nodes.resize(hierarchy.nodes.size() + 2);
     hierarchy.nodes[child].parent = hierarchy.nodes[child + 1].parent = range.node;
-    pending.push_back({child, range.begin, range.begin + first});
-    pending.push_back({child + 1, range.begin + first, range.end});
+    pending.push_back({child, range.begin, range.begin + first, range.depth + 1});
+    pending.push_back({child + 1, range.begin + first, range.end, range.depth + 1});
   }
 }
 
@@ -208,7 +179,7 @@ Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const st
   }
   if (sources.empty()) return hierarchy;
   hierarchy.patches.resize(sources.size());
-  std::vector<Item> items(sources.size());
+  std::vector<ClusterItem> items(sources.size());
   parallel_for(sources.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       hierarchy.patches[i] = make_patch(world, sources[i].instance, sources[i].triangle, sources[i].is_front);
@@ -224,6 +195,7 @@ Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const st
   hierarchy.emission_before = {0};
   for (const std::uint32_t leaf : hierarchy.leaves) {
     const Node& node = hierarchy.nodes[leaf];
+    hierarchy.leaf_normals.push_back(hierarchy.patches[node.patch].normal);
     hierarchy.area_before.push_back(hierarchy.area_before.back() + static_cast<double>(node.area));
     hierarchy.emission_before.push_back(hierarchy.emission_before.back() + luminance(SpectrumD(node.emitted_power)));
   }
@@ -254,6 +226,23 @@ std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node) {
   return first;
 }
 
+std::vector<std::uint32_t> nodes_of_sides(const SideNumbers& sides, const Hierarchy& hierarchy) {
+  std::vector<std::uint32_t> nodes(sides.count, kNone);
+  for (const std::uint32_t leaf : hierarchy.leaves) {
+    const Patch& patch = hierarchy.patches[hierarchy.nodes[leaf].patch];
+    nodes[sides.of(patch.instance, patch.triangle, patch.is_front != 0)] = leaf;
+  }
+  return nodes;
+}
+
+PartPoint enter_part(double b, double c) {
+  const double a = 1 - b - c;
+  if (a > 0.5) return {0, 2 * b, 2 * c};
+  if (b > 0.5) return {1, 2 * b - 1, 2 * c};
+  if (c > 0.5) return {2, 2 * b, 2 * c - 1};
+  return {3, 1 - 2 * a, 1 - 2 * (1 - a - c)};
+}
+
 std::uint32_t part_at(const Hierarchy& hierarchy, std::uint32_t node, const Vec3& position) {
   if (hierarchy.nodes[node].child_count == 0) return node;
   const TriangleVertices& v = hierarchy.patches[hierarchy.nodes[node].patch].vertices;
@@ -262,17 +251,10 @@ std::uint32_t part_at(const Hierarchy& hierarchy, std::uint32_t node, const Vec3
   double b = dot(cross(d, e2), normal) / dot(normal, normal);
   double c = dot(cross(e1, d), normal) / dot(normal, normal);
   while (hierarchy.nodes[node].child_count > 0) {
-    // The weights of the part's vertices from those of the whole's, in the order of subdivide().
-    const double a = 1 - b - c;
-    const std::uint32_t part = a > 0.5 ? 0 : b > 0.5 ? 1 : c > 0.5 ? 2 : 3;
-    if (part == 3) {
-      b = 1 - 2 * a;
-      c = 1 - 2 * (1 - a - c);
-    } else {
-      b = part == 1 ? 2 * b - 1 : 2 * b;
-      c = part == 2 ? 2 * c - 1 : 2 * c;
-    }
-    node = hierarchy.nodes[node].first_child + part;
+    const PartPoint inside = enter_part(b, c);
+    b = inside.b;
+    c = inside.c;
+    node = hierarchy.nodes[node].first_child + inside.part;
   }
   return node;
 }

@@ -50,19 +50,29 @@ struct Hierarchy {
   std::vector<Node> nodes;
   std::vector<Patch> patches;
   std::vector<std::uint32_t> leaves;        // nodes of whole triangle sides, in tree order
+  std::vector<Vec3> leaf_normals;           // over leaves: unit
   std::vector<double> area_before;          // over leaves: area before each, and the total last
   std::vector<double> emission_before;      // over leaves: emitted luminous power before each, and the total last
   std::vector<double> reflection_before;    // the same of reflected power, as last given to set_reflected_power()
   std::vector<float> reflected;             // luminance of reflected power, one a node, given with it
 };
 
-/// Clusters group by place and orientation: a range is split at the median along its widest extent in (position, normal);
-/// patches large against their group are split off first, so that a wall never hides in a cluster of leaves.
-/// Sides that no light reaches are left out. O(n log n) in the number of sides. Deterministic.
+/// Clusters by split_items(). Sides that no light reaches are left out. O(n log n) in the number of sides. Deterministic.
 Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const std::vector<bool>& is_reachable);
 
 /// Cuts a patch into four by its edges' midpoints; returns the first of the four new nodes. Requires: no children yet.
 std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node);
+
+/// Which node holds the whole patch of each triangle side; kNone for sides left out. O(sides).
+std::vector<std::uint32_t> nodes_of_sides(const SideNumbers& sides, const Hierarchy& hierarchy);
+
+/// The part of a patch, in the order of subdivide(), in which a point lies, and the weights there of the part's vertices 1 and
+/// 2; (b, c) are those in the whole.
+struct PartPoint {
+  std::uint32_t part = 0;
+  double b = 0, c = 0;
+};
+PartPoint enter_part(double b, double c);
 
 /// The undivided part of a whole patch in which a point of its plane lies; the node itself where it has no parts.
 std::uint32_t part_at(const Hierarchy& hierarchy, std::uint32_t node, const Vec3& position);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "radiosity/hierarchy.h"
 
 namespace radfarm {
@@ -15,6 +16,8 @@ struct PathHits {
   std::vector<SpectrumD> reflected;    // lm, one a node, at undivided patches: what they reflect of it
   double absorbed = 0;                 // luminance, lm; at first surfaces too
   double escaped = 0;
+  SpectrumD landed{};                  // lm: what first surfaces received ...
+  SpectrumD lost{};                    // ... and what was absorbed or escaped from there on; of the same mean
 };
 
 /// Follows `paths` paths of light from the emitters until they are absorbed or leave the scene.  docs/pipeline.md (radiosity.7)
@@ -23,12 +26,10 @@ struct PathHits {
 /// reflection with the share of luminance that is reflected. A side that was left out of the hierarchy reflects like any other
 /// but keeps no count. About 1 us a ray. Deterministic for any thread count.
 PathHits follow_light(const World& world, const SideNumbers& sides, const Hierarchy& hierarchy, std::size_t paths,
-                      std::uint64_t seed);
+                      std::uint64_t seed, const Progress& progress = {});
 
-/// The power that undivided patches reflect of light that other surfaces sent, from what paths found and, where those were
-/// few, from `guess` (one a node, lm): a patch that expected m hits by the guess and got n is given (n + 1) / (m + 1) of it,
-/// the posterior mean if the guess's error has an exponential distribution. Nodes with 16 hits and more keep exactly the power
-/// that the paths brought. O(nodes).
-std::vector<Spectrum> combine_with_guess(const Hierarchy& hierarchy, const PathHits& hits, const std::vector<Spectrum>& guess);
+/// Scales what was found, by channel, so that as much is lost as had landed. What chance did to the length
+/// of paths is mostly taken out: of one reflectance rho everywhere and nowhere to escape, all but 1 - rho of it. Its bias is of order 1 / paths.
+void balance(PathHits& hits);
 
 }  // namespace radfarm

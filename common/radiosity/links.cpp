@@ -29,12 +29,15 @@ struct Lines {
   float occluder = 0;
 
   double mean(double sum) const { return sum / static_cast<double>(count); }
-  /// The oracle: kernel x divergence. A cluster that N lines saw dark may still be seen by the next one, with the kernel
-  /// that is typical of the pair: `typical` is 0 for pairs of patches, whose kernel varies little.
-  float error(float typical) const {
-    const double measured = mean(arrived) * kl_divergence(std::span(carried).first(count));
+  /// What the oracle says. A cluster that N lines saw dark may still be seen by the next one, with the kernel that is typical
+  /// of the pair: `typical` is 0 for pairs of patches, whose kernel varies little. The paper's forms know no such bound.
+  float error(const LinkOracle& oracle, float receiver_area, float typical) const {
+    const auto samples = std::span(carried).first(count);
+    if (oracle.form == OracleForm::kLiteral) {
+      return static_cast<float>(literal_kernel(oracle.criterion, samples, static_cast<double>(receiver_area)));
+    }
     const double unseen = typical > 0 ? std::max(mean(unoccluded), static_cast<double>(typical)) / count : 0;
-    return static_cast<float>(std::max(measured, unseen));
+    return static_cast<float>(std::max(misplaced_kernel(oracle.criterion, samples), unseen));
   }
 };
 
@@ -161,7 +164,7 @@ bool cannot_see(const Hierarchy& hierarchy, std::uint32_t a, std::uint32_t b) {
 }
 
 Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t sender,
-                   std::uint32_t parts, std::uint32_t samples, std::uint64_t seed) {
+                   std::uint32_t parts, std::uint32_t samples, std::uint64_t seed, const LinkOracle& oracle) {
   const Node& to = hierarchy.nodes[receiver];
   const Node& from = hierarchy.nodes[sender];
   const float typical = typical_kernel(to, from);
@@ -173,20 +176,20 @@ Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t
   if ((parts & kEmittedPart) != 0) {
     const Lines lines = draw_lines(world, hierarchy, to, from, SampleBy::kEmittedPower, samples, combine(key, 2));
     link.emitted = transport(lines, needs_direction(to, from));
-    link.emitted_error = lines.error(typical);
+    link.emitted_error = lines.error(oracle, to.area, typical);
     merge_geometry(lines, link);
   }
   if ((parts & kReflectedPart) != 0) {  // last: the direction is of reflected light where there is any
     const Lines lines = draw_lines(world, hierarchy, to, from, SampleBy::kReflectedPower, samples, combine(key, 1));
     link.reflected = transport(lines, needs_direction(to, from));
-    link.reflected_error = lines.error(typical);
+    link.reflected_error = lines.error(oracle, to.area, typical);
     merge_geometry(lines, link);
   }
   return link;
 }
 
 Link evaluate_source(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t source,
-                     std::uint32_t samples, std::uint64_t seed) {
+                     std::uint32_t samples, std::uint64_t seed, const LinkOracle& oracle) {
   const Node& to = hierarchy.nodes[receiver];
   const std::uint64_t key = combine(seed, kLinkKey, receiver, source, 3);
   Lines lines;
@@ -207,7 +210,7 @@ Link evaluate_source(const World& world, const Hierarchy& hierarchy, std::uint32
   link.sender = source_sender(source);
   link.evaluated = kEmittedPart;
   link.emitted = transport(lines, to.is_cluster());
-  link.emitted_error = lines.error(0);
+  link.emitted_error = lines.error(oracle, to.area, 0);
   merge_geometry(lines, link);
   return link;
 }

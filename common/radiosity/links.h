@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "radiosity/hierarchy.h"
+#include "radiosity/oracles.h"
 
 namespace radfarm {
 
@@ -22,7 +23,7 @@ struct Link {
   Vec3 direction{0, 0, 0};          // unit, from receiver to sender
   float emitted = 0;                // 1/m^2; of a source: lux (luminance)
   float reflected = 0;              // 1/m^2
-  float emitted_error = 0;          // 1/m^2: the oracle's part of `emitted` that may be misplaced
+  float emitted_error = 0;          // the part of `emitted` that may be misplaced, by the oracle
   float reflected_error = 0;
   float visibility = 1;             // mean over the samples
   float occluder_distance = 0;      // from the receiver to the closest occluder met, m; 0: none met
@@ -42,14 +43,14 @@ bool cannot_see(const Hierarchy& hierarchy, std::uint32_t a, std::uint32_t b);
 
 /// Evaluates a link with `samples` random lines between the elements for each of `parts` (kEmittedPart, kReflectedPart).
 /// Unoccluded factors of patch senders are exact (Lambert's polygon formula), of clusters sampled. Keyed by (seed, receiver,
-/// sender): the same bits whoever computes it. About 0.5 us a line.
+/// sender): the same bits whoever computes it. `oracle` fills the errors. About 0.5 us a line.
 /// Requires: sender < hierarchy.nodes.size() (sources: evaluate_source).
 Link evaluate_link(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t sender,
-                   std::uint32_t parts, std::uint32_t samples, std::uint64_t seed);
+                   std::uint32_t parts, std::uint32_t samples, std::uint64_t seed, const LinkOracle& oracle = {});
 
 /// The same for a source: `emitted` is the mean irradiance (luminance, at normal incidence for clusters) in lux that arrives. Each
 /// of the `samples` points of a receiver looks at the sky in the same directions, so that what differs is what hides it.
 Link evaluate_source(const World& world, const Hierarchy& hierarchy, std::uint32_t receiver, std::uint32_t source,
-                     std::uint32_t samples, std::uint64_t seed);
+                     std::uint32_t samples, std::uint64_t seed, const LinkOracle& oracle = {});
 
 }  // namespace radfarm

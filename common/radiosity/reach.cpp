@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "math/sampling.h"
 #include "math/sobol.h"
+#include "scene/emitter_sampling.h"
 
 namespace radfarm {
 namespace {
@@ -59,9 +60,13 @@ SurfacePoint point_on(const World& world, const Side& side, const Vec2& u) {
   return point;
 }
 
-void meet_others(const World& world, const SideNumbers& sides, const Side& side, std::uint32_t rays, std::uint64_t key,
+struct Rays {
+  std::uint32_t first, last;
+};
+
+void meet_others(const World& world, const SideNumbers& sides, const Side& side, Rays rays, std::uint64_t key,
                  std::vector<std::uint32_t>& met) {
-  for (std::uint32_t i = 0; i < rays; ++i) {
+  for (std::uint32_t i = rays.first; i < rays.last; ++i) {
     const SurfacePoint from = point_on(world, side, sobol_owen_2d(i, combine(key, 1)));
     const Vec3 local = sample_cosine_hemisphere(sobol_owen_2d(i, combine(key, 2)));
     const Ray ray{leave(from), normalize(Frame(from.geometric_normal).to_world(local))};
@@ -109,6 +114,79 @@ void mark_lit_by(const World& world, const SideNumbers& sides, const std::vector
   }
 }
 
+/// The number of rays from each side in the first round, by its share of the area.
+std::vector<std::uint32_t> share_rays(const World& world, const std::vector<Side>& list) {
+  std::vector<double> areas(list.size());
+  parallel_for(list.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) areas[s] = area_of(world, list[s]);
+  });
+  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+  std::vector<std::uint32_t> rays(list.size());
+  for (std::size_t s = 0; s < rays.size(); ++s) {
+    rays[s] = std::clamp(static_cast<std::uint32_t>(total > 0 ? areas[s] / total * kRaysPerScene : 0), 1U, kMaxRays);
+  }
+  return rays;
+}
+
+/// What light has reached so far, and what hangs together.
+struct Reach {
+  Groups groups;
+  std::vector<bool> lit;  // at groups' roots
+
+  void light(std::uint32_t side) { lit[groups.root(side)] = true; }
+  void join(std::uint32_t a, std::uint32_t b) {
+    const bool is_lit = lit[groups.root(a)] || lit[groups.root(b)];
+    groups.join(a, b);
+    if (is_lit) light(a);
+  }
+  bool has(std::uint32_t side) { return lit[groups.root(side)]; }
+};
+
+/// Rays from those sides that light has not reached yet.
+void join_met(const World& world, const SideNumbers& sides, const std::vector<Side>& list, std::uint64_t seed,
+              const std::vector<Rays>& rays, const Progress& progress, Reach& reach) {
+  std::vector<std::vector<std::uint32_t>> met(list.size());
+  parallel_for(progress, "radiosity: reach", list.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) meet_others(world, sides, list[s], rays[s], combine(seed, kReachKey, s), met[s]);
+  });
+  for (std::uint32_t s = 0; s < list.size(); ++s) {
+    for (const std::uint32_t other : met[s]) other == kSky ? reach.light(s) : reach.join(s, other);
+  }
+}
+
+void light_emitters(const World& world, const SideNumbers& sides, const std::vector<Side>& list, std::uint64_t seed,
+                    Reach& reach) {
+  for (const EmissiveTriangle& t : world.emitters.triangles) {
+    reach.light(sides.of(t.instance, t.triangle, true));
+    if (t.both_sides) reach.light(sides.of(t.instance, t.triangle, false));
+  }
+  for (std::size_t i = 0; i < world.emitters.punctual.size(); ++i) {
+    mark_lit_by(world, sides, list, world.emitters.punctual[i], combine(seed, kReachKey, list.size() + i), reach.groups,
+                reach.lit);
+  }
+}
+
+/// Sides of groups that are dark so far, of which a point sees an emitter: one so far away or so small that no ray met it.
+void mark_lit_directly(const World& world, const std::vector<Side>& list, std::uint64_t key, Reach& reach) {
+  if (world.emitters.size() == 0) return;
+  std::vector<std::uint32_t> dark;
+  for (std::uint32_t s = 0; s < list.size(); ++s) {
+    if (!reach.has(s)) dark.push_back(s);
+  }
+  std::vector<std::uint8_t> sees(dark.size());
+  parallel_for(dark.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SurfacePoint point = point_on(world, list[dark[i]], sobol_owen_2d(dark[i], combine(key, 1)));
+      const NextEvent event = sample_emitter(world, point, sobol_owen_1d(dark[i], combine(key, 2)),
+                                             sobol_owen_2d(dark[i], combine(key, 3)));
+      sees[i] = is_black(event.weight) ? 0 : 1;
+    }
+  });
+  for (std::size_t i = 0; i < dark.size(); ++i) {
+    if (sees[i] != 0) reach.light(dark[i]);
+  }
+}
+
 }  // namespace
 
 SideNumbers::SideNumbers(const Scene& scene) {
@@ -120,37 +198,20 @@ SideNumbers::SideNumbers(const Scene& scene) {
   count = 2 * triangles;
 }
 
-std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed) {
+std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed,
+                                  const Progress& progress) {
   const std::vector<Side> list = list_sides(world.scene, sides.count);
-  double total = 0;
-  for (const Side& side : list) total += area_of(world, side);
-  std::vector<std::vector<std::uint32_t>> met(list.size());
-  parallel_for(list.size(), 512, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      const double share = total > 0 ? area_of(world, list[s]) / total : 0;
-      const auto rays = std::clamp(static_cast<std::uint32_t>(share * kRaysPerScene), kMinRays, kMaxRays);
-      meet_others(world, sides, list[s], rays, combine(seed, kReachKey, s), met[s]);
-    }
-  });
-  Groups groups(list.size());
-  for (std::uint32_t s = 0; s < list.size(); ++s) {
-    for (const std::uint32_t other : met[s]) {
-      if (other != kSky) groups.join(s, other);
-    }
-  }
-  std::vector<bool> lit(list.size());
-  for (std::uint32_t s = 0; s < list.size(); ++s) {
-    if (std::find(met[s].begin(), met[s].end(), kSky) != met[s].end()) lit[groups.root(s)] = true;
-  }
-  for (const EmissiveTriangle& t : world.emitters.triangles) {
-    lit[groups.root(sides.of(t.instance, t.triangle, true))] = true;
-    if (t.both_sides) lit[groups.root(sides.of(t.instance, t.triangle, false))] = true;
-  }
-  for (std::size_t i = 0; i < world.emitters.punctual.size(); ++i) {
-    mark_lit_by(world, sides, list, world.emitters.punctual[i], combine(seed, kReachKey, list.size() + i), groups, lit);
-  }
+  Reach reach{Groups(list.size()), std::vector<bool>(list.size())};
+  light_emitters(world, sides, list, seed, reach);
+  const std::vector<std::uint32_t> counts = share_rays(world, list);
+  std::vector<Rays> rays(list.size());
+  for (std::size_t s = 0; s < rays.size(); ++s) rays[s] = {0, counts[s]};
+  join_met(world, sides, list, seed, rays, progress, reach);
+  for (std::uint32_t s = 0; s < list.size(); ++s) rays[s] = {counts[s], reach.has(s) ? 0 : std::max(counts[s], kMinRays)};
+  join_met(world, sides, list, seed, rays, progress, reach);
+  mark_lit_directly(world, list, combine(seed, kReachKey, kNone), reach);
   std::vector<bool> reached(list.size());
-  for (std::uint32_t s = 0; s < list.size(); ++s) reached[s] = lit[groups.root(s)];
+  for (std::uint32_t s = 0; s < list.size(); ++s) reached[s] = reach.has(s);
   return reached;
 }
 

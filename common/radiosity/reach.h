@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "scene/world.h"
 
 namespace radfarm {
@@ -22,7 +23,8 @@ struct SideNumbers {
 /// A few cosine-distributed rays from every side join it with the sides they meet; what hangs together with an emitting side
 /// or a punctual light is reached. The inside of closed furniture and the outside of a closed room are not: without this,
 /// clusters would spread light to faces that turn the right way but lie inside (docs/pipeline.md, radiosity.2).
-/// At least 4 rays a side, more on large ones; about 1 us each. Deterministic.
-std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed);
+/// A ray a side, more from large ones, and up to 4 from sides that these leave dark; about 1 us each. Deterministic.
+std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed,
+                                  const Progress& progress = {});
 
 }  // namespace radfarm

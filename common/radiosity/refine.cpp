@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "base/random.h"
 
 namespace radfarm {
@@ -52,12 +51,12 @@ bool is_outdated(const Round& round, const Link& link) {
 Link evaluate(const Round& round, const Link& link) {
   if (is_source(link.sender)) {
     return evaluate_source(round.world, round.hierarchy, link.receiver, source_index(link.sender),
-                             round.settings.samples_per_link, round.seed);
+                             round.settings.samples_per_link, round.seed, round.settings.oracle);
   }
   const std::uint32_t parts = (sender_emits(round, link) > 0 ? kEmittedPart : 0) |
                               (sender_reflects(round, link) > 0 ? kReflectedPart : 0);
   return evaluate_link(round.world, round.hierarchy, link.receiver, link.sender, parts,
-                       round.settings.samples_per_link, round.seed);
+                       round.settings.samples_per_link, round.seed, round.settings.oracle);
 }
 
 bool can_split(const Round& round, std::uint32_t node) {
@@ -117,14 +116,51 @@ void split_link(const Round& round, const Link& link, Cut cut, std::vector<Link>
   }
 }
 
-/// A cluster's light to itself is cut as long as it matters at all: its oracle sees no directions.
-bool is_accepted(const Round& round, const Link& link) {
-  if (link.receiver == link.sender) {
-    const Node& node = round.hierarchy.nodes[link.receiver];
-    const double own = sender_emits(round, link) + sender_reflects(round, link);
-    return own * static_cast<double>(max_component(node.reflectance)) < round.max_error;
+/// Light that the link may misplace, lm. Of a cluster's light to itself all: its oracle sees no directions.
+double link_error(const Round& round, const Link& link) {
+  if (link.receiver != link.sender) return misplaced_power(round, link);
+  const Node& node = round.hierarchy.nodes[link.receiver];
+  const double own = sender_emits(round, link) + sender_reflects(round, link);
+  return own * static_cast<double>(max_component(node.reflectance));
+}
+
+/// A link that is to be split, and by how many links that makes more.
+struct Wish {
+  double error = 0;
+  std::size_t link = 0;
+  std::size_t growth = 0;
+};
+
+std::size_t parts_of(const Round& round, std::uint32_t node, bool is_cut) {
+  if (!is_cut) return 1;
+  return round.hierarchy.nodes[node].is_cluster() ? 2 : 4;
+}
+
+/// How each candidate is cut. Where there is not room for all, a level takes half of what is left, for the links that may misplace
+/// most (by number where equal): what lies deeper may be worse still.
+std::vector<Cut> choose_cuts(const Round& round, const std::vector<Link>& candidates, std::size_t room) {
+  std::vector<Cut> cuts(candidates.size(), Cut::kNone);
+  std::vector<Wish> wishes;
+  std::size_t growth = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Link& link = candidates[i];
+    const double error = link_error(round, link);
+    if (error < round.max_error) continue;
+    cuts[i] = choose_cut(round, link);
+    if (cuts[i] == Cut::kNone) continue;
+    const bool is_both = cuts[i] == Cut::kBoth;
+    wishes.push_back({error, i, parts_of(round, link.receiver, is_both || cuts[i] == Cut::kReceiver) *
+                                    (is_source(link.sender) ? 1 : parts_of(round, link.sender, is_both || cuts[i] == Cut::kSender)) - 1});
+    growth += wishes.back().growth;
   }
-  return misplaced_power(round, link) < round.max_error;
+  if (growth <= room / 2) return cuts;
+  std::sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.error != b.error ? a.error > b.error : a.link < b.link; });
+  growth = 0;
+  for (const Wish& wish : wishes) {
+    growth += wish.growth;
+    if (growth > room / 2) cuts[wish.link] = Cut::kNone;
+  }
+  return cuts;
 }
 
 }  // namespace
@@ -141,7 +177,8 @@ std::vector<Link> initial_links(const World& world, const Hierarchy& hierarchy) 
 }
 
 std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflected, std::vector<Link>& links,
-                   const RadiositySettings& settings, double emitted_flux, std::uint64_t seed) {
+                   const RadiositySettings& settings, double emitted_flux, std::uint64_t seed,
+                   const Progress& progress) {
   if (hierarchy.nodes.empty()) return 0;
   const Round round{world, hierarchy, reflected, settings, static_cast<double>(settings.max_link_error) * emitted_flux,
                     settings.min_patch_area * hierarchy.nodes[0].area, seed};
@@ -152,22 +189,23 @@ std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflecte
   }
   std::vector<Link> accepted, candidates = std::move(links), next;
   std::size_t splits = 0;
-  while (!candidates.empty()) {
-    parallel_for(candidates.size(), 256, [&](std::size_t begin, std::size_t end) {
+  while (!candidates.empty() && !progress.is_cancelled()) {
+    parallel_for(progress, "radiosity: links", candidates.size(), 256, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         Link& link = candidates[i];
         if (is_outdated(round, link)) link = evaluate(round, link);
       }
     });
     next.clear();
-    for (const Link& link : candidates) {
-      const Cut cut = is_accepted(round, link) ? Cut::kNone : choose_cut(round, link);
-      const bool has_room = accepted.size() + next.size() + candidates.size() < settings.max_links;
-      if (cut != Cut::kNone && has_room) {
-        split_link(round, link, cut, next);
-        ++splits;
+    const std::size_t links_now = accepted.size() + candidates.size();
+    const std::size_t room = links_now < settings.max_links ? settings.max_links - links_now : 0;
+    const std::vector<Cut> cuts = choose_cuts(round, candidates, room);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (cuts[i] == Cut::kNone) {
+        accepted.push_back(candidates[i]);
       } else {
-        accepted.push_back(link);
+        split_link(round, candidates[i], cuts[i], next);
+        ++splits;
       }
     }
     candidates.swap(next);
@@ -177,12 +215,12 @@ std::size_t refine(const World& world, Hierarchy& hierarchy, NodePower& reflecte
 }
 
 void measure_again(const World& world, Hierarchy& hierarchy, const NodePower& reflected, std::vector<Link>& links,
-                   const RadiositySettings& settings, std::uint64_t seed) {
+                   const RadiositySettings& settings, std::uint64_t seed, const Progress& progress) {
   set_reflected_power(hierarchy, reflected);
   std::erase_if(links, [&](const Link& link) {
     return is_source(link.sender) || !(luminance(reflected[link.sender]) > 0);
   });
-  parallel_for(links.size(), 256, [&](std::size_t begin, std::size_t end) {
+  parallel_for(progress, "radiosity: measuring links", links.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       links[i] = evaluate_link(world, hierarchy, links[i].receiver, links[i].sender, kReflectedPart,
                                settings.samples_per_link, combine(seed, kFinalKey));

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "radiosity/refine.h"
 
 namespace radfarm {
@@ -33,6 +34,7 @@ struct RadiositySolution {
 /// Factors are scaled so that all light arrives but the share that probe rays see escape, and no patch sends more than it
 /// has, so that the iteration converges whenever rho < 1; the raw error is in the ledger. (radiosity.6)
 /// Cost: links x samples_per_link rays, then O(links + leaves x depth) an iteration. Deterministic for any thread count.
-RadiositySolution solve_radiosity(const World& world, const RadiositySettings& settings, std::uint64_t seed);
+RadiositySolution solve_radiosity(const World& world, const RadiositySettings& settings, std::uint64_t seed,
+                                  const Progress& progress = {});
 
 }  // namespace radfarm

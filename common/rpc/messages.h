@@ -51,6 +51,14 @@ struct JobFailure {
 /// "SCENE_INVALID", as in the protocol.
 std::string to_string(JobFailure::Reason reason);
 
+/// How far the preparation is. `total` is 0 where it is not known.
+struct JobPhase {
+  std::string name;  // "radiosity: links"; empty: not being prepared
+  std::uint64_t done = 0;
+  std::uint64_t total = 0;
+  friend bool operator==(const JobPhase&, const JobPhase&) = default;
+};
+
 struct JobProgress {
   std::uint32_t tasks_total = 0;
   std::uint32_t tasks_committed = 0;
@@ -59,6 +67,7 @@ struct JobProgress {
   std::uint32_t attempts_expired = 0;
   std::uint32_t results_diverged = 0;
   std::string waiting_for;
+  JobPhase phase;
   friend bool operator==(const JobProgress&, const JobProgress&) = default;
 };
 

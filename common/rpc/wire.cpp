@@ -129,7 +129,8 @@ Result<JobStatus> parse(const v1::RenderJob& message) {
   const v1::Progress& progress = message.progress();
   status.progress = {progress.tasks_total(),     progress.tasks_committed(),  progress.tasks_leased(),
                      progress.attempts_failed(), progress.attempts_expired(), progress.results_diverged(),
-                     progress.waiting_for()};
+                     progress.waiting_for(),
+                     {progress.phase(), progress.phase_done(), progress.phase_total()}};
   const v1::Failure& failure = message.failure();
   status.failure = {static_cast<JobFailure::Reason>(failure.reason()), {code_from(failure.code()), failure.message()}};
   for (const v1::Artifact& artifact : message.artifacts()) {
@@ -153,6 +154,9 @@ void encode(const JobStatus& status, v1::RenderJob& message) {
   progress.set_attempts_expired(status.progress.attempts_expired);
   progress.set_results_diverged(status.progress.results_diverged);
   progress.set_waiting_for(status.progress.waiting_for);
+  progress.set_phase(status.progress.phase.name);
+  progress.set_phase_done(status.progress.phase.done);
+  progress.set_phase_total(status.progress.phase.total);
   if (status.state == JobState::kFailed) {
     message.mutable_failure()->set_reason(static_cast<v1::Failure::Reason>(status.failure.reason));
     message.mutable_failure()->set_code(static_cast<std::uint32_t>(status.failure.error.code));

@@ -83,6 +83,14 @@ RTCRay make_ray(const Vec3& origin, const Vec3& direction, float far) {
   return ray;
 }
 
+/// Where a ray of length 1 from one point to another ends so that it does not meet the surface just behind the other: an offset of that surface
+/// knows its own coordinates, the ray's rounding is that of the larger ones.
+float end_before(const Vec3& from, const Vec3& to) {
+  constexpr float kRounding = 8 * 0x1p-24F;
+  const float largest = std::max(max_abs_component(from), max_abs_component(to)), across = max_abs_component(to - from);
+  return across > 0 ? std::max(0.0F, 1 - kRounding * largest / across) : 0;
+}
+
 RTCGeometry triangle_geometry(RTCDevice device, std::span<const Vec3> positions,
                               std::span<const std::array<std::uint32_t, 3>> triangles) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -234,7 +242,7 @@ std::optional<Hit> RayCaster::closest_with_panes(const Ray& ray, std::uint64_t k
 
 Spectrum RayCaster::transmittance(const Vec3& from, const Vec3& to) const {
   Query query(*tree_->surfaces, to - from);
-  RTCRay ray = make_ray(from, to - from, 1);
+  RTCRay ray = make_ray(from, to - from, end_before(from, to));
   rtc::occluded(tree_->top, query.base, ray);
   return ray.tfar < 0 ? Spectrum() : query.transmittance;
 }

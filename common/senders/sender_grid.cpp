@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/flat_file.h"
-#include "base/parallel.h"
 
 namespace radfarm {
 namespace {
@@ -60,7 +59,8 @@ Result<std::vector<std::vector<T>>> cut(std::span<const T> all, std::span<const 
 }  // namespace
 
 SenderGridFile classify_visible(const World& world, const SenderTree& tree, const Camera& camera, int width, int height,
-                                const SenderSettings& settings, std::uint64_t seed) {
+                                const SenderSettings& settings, std::uint64_t seed, const Progress& progress) {
+  progress.report("senders");
   const std::vector<ReceiverPoint> points = find_visible_points(world, camera, width, height, kPrepassSamples, seed);
   SenderGridFile file;
   file.grid = fit_grid(camera, width, height, points, settings);
@@ -68,7 +68,7 @@ SenderGridFile classify_visible(const World& world, const SenderTree& tree, cons
   file.vertices = touched_vertices(file.grid, points);
   file.senders.resize(file.vertices.size());
   const VertexContext context{world, tree, file.grid, file.receivers, settings, seed};
-  parallel_for(file.vertices.size(), 8, [&](std::size_t begin, std::size_t end) {
+  parallel_for(progress, "senders", file.vertices.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) file.senders[i] = vertex_senders(context, file.vertices[i]);
   });
   return file;

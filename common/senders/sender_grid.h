@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/progress.h"
 #include "base/status.h"
 #include "senders/vertex_senders.h"
 
@@ -21,7 +22,7 @@ struct SenderGridFile {
 
 /// Prepass, grid, and the classification of every vertex that a visible point interpolates, on all threads.
 SenderGridFile classify_visible(const World& world, const SenderTree& tree, const Camera& camera, int width, int height,
-                                const SenderSettings& settings, std::uint64_t seed);
+                                const SenderSettings& settings, std::uint64_t seed, const Progress& progress = {});
 
 [[nodiscard]] std::vector<std::byte> encode(const SenderGridFile& file);
 /// `camera` comes from the view that holds the grid, `sky_patches` is how many the environment has. Hostile bytes give DATA_LOSS.

@@ -14,7 +14,13 @@ float sent(const RadiositySolution& solution, std::uint32_t node) {
   return luminance(solution.hierarchy.nodes[node].emitted_power) + luminance(solution.reflected_power[node]);
 }
 
-SenderNode make_node(const RadiositySolution& solution, std::uint32_t id, bool is_leaf, SenderTree& tree) {
+/// A tree that grows.
+struct Arrays {
+  std::vector<SenderNode> nodes;
+  std::vector<SenderPatch> patches;
+};
+
+SenderNode make_node(const RadiositySolution& solution, std::uint32_t id, bool is_leaf, Arrays& tree) {
   const Node& node = solution.hierarchy.nodes[id];
   SenderNode sender;
   sender.bounds = node.bounds;
@@ -60,9 +66,14 @@ bool is_sound(const SenderTree& tree) {
 
 }  // namespace
 
+SenderTree own_sender_tree(std::vector<SenderNode> nodes, std::vector<SenderPatch> patches) {
+  const auto arrays = std::make_shared<const Arrays>(Arrays{std::move(nodes), std::move(patches)});
+  return {arrays->nodes, arrays->patches, arrays};
+}
+
 SenderTree make_sender_tree(const RadiositySolution& solution) {
-  SenderTree tree;
-  if (solution.hierarchy.nodes.empty() || !(sent(solution, 0) > 0)) return tree;
+  if (solution.hierarchy.nodes.empty() || !(sent(solution, 0) > 0)) return {};
+  Arrays tree;
   std::vector<std::uint32_t> source = {0};  // the solution's node behind each sender
   tree.nodes.push_back({});
   for (std::size_t i = 0; i < source.size(); ++i) {
@@ -88,7 +99,7 @@ SenderTree make_sender_tree(const RadiositySolution& solution) {
       node.max_radiosity = std::max(node.max_radiosity, tree.nodes[node.first_child + c].max_radiosity);
     }
   }
-  return tree;
+  return own_sender_tree(std::move(tree.nodes), std::move(tree.patches));
 }
 
 std::vector<std::byte> encode(const SenderTree& tree) {
@@ -101,8 +112,8 @@ std::vector<std::byte> encode(const SenderTree& tree) {
 Result<SenderTree> decode_sender_tree(std::span<const std::byte> bytes) {
   RADFARM_TRY(const FlatFileReader file, FlatFileReader::open(bytes, "solution", kVersion));
   SenderTree tree;
-  RADFARM_TRY(tree.nodes, file.copy<SenderNode>("nodes"));
-  RADFARM_TRY(tree.patches, file.copy<SenderPatch>("patches"));
+  RADFARM_TRY(tree.nodes, file.get<SenderNode>("nodes"));
+  RADFARM_TRY(tree.patches, file.get<SenderPatch>("patches"));
   if (!is_sound(tree)) return fail(Code::kDataLoss, "solution: an index lies outside");
   return tree;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,15 +41,21 @@ struct SenderPatch {
   std::uint32_t is_textured_emitter = 0;
 };
 
+/// Read in place: from the bytes of a stored solution, which must then outlive it, or from arrays of its own.
 struct SenderTree {
-  std::vector<SenderNode> nodes;     // 0 is the root; empty when nothing sends
-  std::vector<SenderPatch> patches;
+  std::span<const SenderNode> nodes;  // 0 is the root; empty when nothing sends
+  std::span<const SenderPatch> patches;
+  std::shared_ptr<const void> arrays;  // keeps alive what the two view, where the tree owns it
 };
+
+/// A tree that owns its arrays.
+SenderTree own_sender_tree(std::vector<SenderNode> nodes, std::vector<SenderPatch> patches);
 
 SenderTree make_sender_tree(const RadiositySolution& solution);
 
 [[nodiscard]] std::vector<std::byte> encode(const SenderTree& tree);
-/// Hostile bytes give DATA_LOSS: every index is checked, children come after their parent.
+/// A view of `bytes`, which must outlive it and what is copied from it: no process that maps the same file holds a copy. Hostile
+/// bytes give DATA_LOSS: every index is checked, children come after their parent.
 Result<SenderTree> decode_sender_tree(std::span<const std::byte> bytes);
 
 /// A point of a sender, chosen by the luminance of what its patches send, uniform on the patch.

@@ -15,6 +15,7 @@ using Action = std::function<Result<ExitCode>()>;
 /// Each verb's file declares its flags on `app` and sets `action` when the verb is given.
 void add_render(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
+void add_bake(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);

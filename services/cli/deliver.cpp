@@ -18,11 +18,28 @@
 namespace radfarm::cli {
 namespace {
 
-std::optional<float> parse_exposure(const std::string& text) {
+Result<std::vector<std::byte>> download(FarmClient& client, const JobStatus& job, const std::string& name) {
+  const auto found = std::find_if(job.artifacts.begin(), job.artifacts.end(),
+                                  [&](const Artifact& artifact) { return artifact.name == name; });
+  if (found == job.artifacts.end()) return fail(Code::kDataLoss, "job " + job.id + " left no " + name);
+  return client.blobs().download(found->blob.digest, limits::kBlobBytes);
+}
+
+Status write_png(std::span<const std::byte> exr, const Outputs& outputs) {
+  RADFARM_TRY(const Image image, decode_exr(exr));
+  RADFARM_TRY(const std::optional<float> exposure, parse_exposure(outputs.exposure));
+  RADFARM_TRY(const std::vector<std::byte> png, encode_png(image, exposure ? *exposure : auto_exposure(image)));
+  return write_file_atomically(outputs.png, png);
+}
+
+}  // namespace
+
+Result<std::optional<float>> parse_exposure(const std::string& text) {
+  if (text == "auto") return std::nullopt;
   float value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || stop != text.data() + text.size() || !(std::fabs(value) <= 100)) return std::nullopt;
-  return value;
+  if (error == std::errc{} && stop == text.data() + text.size() && std::fabs(value) <= 100) return value;
+  return fail(Code::kInvalidArgument, "--exposure: '" + text + "' is neither auto nor a number from -100 to 100");
 }
 
 Status check_folder(const std::filesystem::path& file) {
@@ -38,22 +55,6 @@ Status check_folder(const std::filesystem::path& file) {
   if (::access(folder.c_str(), W_OK) == 0) return {};
   return fail(Code::kPermissionDenied, file.string() + ": cannot write into " + folder.string());
 }
-
-Result<std::vector<std::byte>> download(FarmClient& client, const JobStatus& job, const std::string& name) {
-  const auto found = std::find_if(job.artifacts.begin(), job.artifacts.end(),
-                                  [&](const Artifact& artifact) { return artifact.name == name; });
-  if (found == job.artifacts.end()) return fail(Code::kDataLoss, "job " + job.id + " left no " + name);
-  return client.blobs().download(found->blob.digest, limits::kBlobBytes);
-}
-
-Status write_png(std::span<const std::byte> exr, const Outputs& outputs) {
-  RADFARM_TRY(const Image image, decode_exr(exr));
-  const std::optional<float> exposure = parse_exposure(outputs.exposure);
-  RADFARM_TRY(const std::vector<std::byte> png, encode_png(image, exposure ? *exposure : auto_exposure(image)));
-  return write_file_atomically(outputs.png, png);
-}
-
-}  // namespace
 
 void add_output_flags(CLI::App& app, Outputs& outputs) {
   app.add_option("-o,--output", outputs.exr, "OUT.exr: scene-linear image with its layers")->required();
@@ -75,10 +76,8 @@ Status check_usage(const Outputs& outputs) {
   if (!outputs.report.empty() && outputs.report.extension() != ".json") {
     return fail(Code::kInvalidArgument, "--report: '" + outputs.report.string() + "' must end in .json");
   }
-  if (outputs.exposure != "auto" && !parse_exposure(outputs.exposure)) {
-    return fail(Code::kInvalidArgument,
-                "--exposure: '" + outputs.exposure + "' is neither auto nor a number from -100 to 100");
-  }
+  RADFARM_TRY(const std::optional<float> exposure, parse_exposure(outputs.exposure));
+  (void)exposure;
   return {};
 }
 

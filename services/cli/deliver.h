@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,9 @@ void add_output_flags(CLI::App& app, Outputs& outputs);
 /// INVALID_ARGUMENT when a name or the exposure cannot be; PERMISSION_DENIED or NOT_FOUND when a folder is not there,
 /// so that nobody learns it only after the render.
 Status check_usage(const Outputs& outputs);
+/// Nothing for "auto".
+Result<std::optional<float>> parse_exposure(const std::string& text);
+Status check_folder(const std::filesystem::path& file);
 Status check_folders(const Outputs& outputs);
 
 /// Downloads the image and the report of a finished job, writes what is wanted, each file whole or not at all. Returns

@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/request_flags.h"
 #include "pipeline/pipeline.h"
+#include "process/end_on_signal.h"
 
 namespace radfarm::cli {
 namespace {
@@ -23,6 +24,7 @@ Result<ExitCode> run_explain(const ExplainFlags& flags) {
   Result<RenderRequest> request = parse_request(flags.request);
   if (!request) return usage_error(request.error());
   locate_files(*request);
+  const EndOnSignal interrupted("radfarm");
   RADFARM_TRY(const nlohmann::json plan, explain(flags.scene, *request));
   if (flags.json) {
     std::printf("%s\n", plan.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());

@@ -5,6 +5,8 @@
 namespace radfarm::cli {
 namespace {
 
+constexpr std::chrono::milliseconds kTick{500};  // the time shown goes on while the job says nothing
+
 /// Feeds a job's states into `events` from a thread of its own, while it lives.
 class Watch {
  public:
@@ -30,19 +32,21 @@ class Watch {
 Result<JobStatus> follow(FarmClient& client, const std::string& id, const FollowOptions& options, Events& events,
                          Progress& progress) {
   const Watch watch(client, id, events);
+  std::optional<JobStatus> last;
   for (;;) {
-    const Events::Seen seen = events.wait(options.deadline);
-    if (seen.job) {
-      progress.show(*seen.job);
-      if (is_terminal(seen.job->state)) return *seen.job;
-    }
+    const auto now = std::chrono::steady_clock::now();
+    const bool is_final = options.deadline && *options.deadline <= now + kTick;
+    const Events::Seen seen = events.wait(is_final ? *options.deadline : now + kTick);
+    if (seen.job) last = seen.job;
+    if (last) progress.show(*last);
+    if (last && is_terminal(last->state)) return *last;
     if (seen.interrupted) {
       if (options.on_interrupt == FollowOptions::OnInterrupt::kCancelJob) (void)client.cancel(id);
       return fail(Code::kCancelled, "cancelled");
     }
     if (seen.child_ended && options.check_children) RADFARM_TRY_STATUS(options.check_children());
     if (seen.lost) return tl::unexpected(*seen.lost);
-    if (seen.timed_out) {
+    if (seen.timed_out && is_final) {
       return fail(Code::kDeadlineExceeded, "job " + id + " has not finished in time; it goes on");
     }
   }

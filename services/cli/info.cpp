@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "pipeline/pipeline.h"
+#include "process/end_on_signal.h"
 
 namespace radfarm::cli {
 namespace {
@@ -17,6 +18,7 @@ struct InfoFlags {
 };
 
 Result<ExitCode> run_info(const InfoFlags& flags) {
+  const EndOnSignal interrupted("radfarm");
   RADFARM_TRY(const nlohmann::json scene, describe_scene(flags.scene));
   if (flags.json) {
     std::printf("%s\n", scene.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());

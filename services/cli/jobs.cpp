@@ -35,7 +35,10 @@ nlohmann::json to_json(const JobStatus& job) {
                            {"attempts_failed", p.attempts_failed},
                            {"attempts_expired", p.attempts_expired},
                            {"results_diverged", p.results_diverged},
-                           {"waiting_for", p.waiting_for}}},
+                           {"waiting_for", p.waiting_for},
+                           {"phase", p.phase.name},
+                           {"phase_done", p.phase.done},
+                           {"phase_total", p.phase.total}}},
                          {"artifacts", nlohmann::json::array()}};
   if (job.state == JobState::kFailed) {
     json["failure"] = {{"reason", to_string(job.failure.reason)}, {"message", job.failure.error.message}};

@@ -17,6 +17,7 @@ class LocalFarm {
   struct Options {
     int workers = 2;
     int threads = 1;  // of each worker
+    std::filesystem::path solutions;  // solved light is kept there for later farms; empty: none is
   };
   /// Returns when the coordinator serves; the workers register by themselves.
   static Result<LocalFarm> start(const Options& options);
@@ -31,7 +32,7 @@ class LocalFarm {
 
  private:
   explicit LocalFarm(TemporaryDirectory folder) : folder_(std::move(folder)) {}
-  Status start_coordinator();
+  Status start_coordinator(const std::filesystem::path& solutions);
   Status start_worker(int number, int threads);
 
   TemporaryDirectory folder_;

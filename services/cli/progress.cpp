@@ -9,6 +9,7 @@ namespace radfarm::cli {
 namespace {
 
 constexpr int kBarWidth = 30;
+constexpr std::size_t kPhaseWidth = 40;
 
 std::string verb(JobState state) {
   switch (state) {
@@ -32,6 +33,14 @@ std::string verb(JobState state) {
   return "";
 }
 
+/// What is prepared now, with the space that follows it.
+std::string phase_text(const JobPhase& phase) {
+  if (phase.name.empty()) return "";
+  std::string text = phase.name.substr(0, kPhaseWidth);
+  if (phase.total > 0) text += " " + std::to_string(phase.done) + "/" + std::to_string(phase.total);
+  return text + "  ";
+}
+
 double share(const JobProgress& progress) {
   return progress.tasks_total == 0 ? 0.0 : static_cast<double>(progress.tasks_committed) / progress.tasks_total;
 }
@@ -42,7 +51,8 @@ std::string progress_line(const JobStatus& status, double seconds) {
   const JobProgress& progress = status.progress;
   std::array<char, 80> line{};
   if (progress.tasks_total == 0) {
-    std::snprintf(line.data(), line.size(), "%-10s %.1f s", verb(status.state).c_str(), seconds);
+    std::snprintf(line.data(), line.size(), "%-10s %s%.1f s", verb(status.state).c_str(),
+                  phase_text(progress.phase).c_str(), seconds);
     return line.data();
   }
   const int full = static_cast<int>(share(progress) * kBarWidth);
@@ -72,9 +82,10 @@ void Progress::show(const JobStatus& status) {
     return;
   }
   const int tenths = static_cast<int>(10 * share(status.progress));
-  if (state_ == status.state && tenths_ == tenths) return;
+  if (state_ == status.state && tenths_ == tenths && phase_ == status.progress.phase.name) return;
   state_ = status.state;
   tenths_ = tenths;
+  phase_ = status.progress.phase.name;
   std::fprintf(stderr, "%s%s%s\n", line.c_str(),
                status.progress.waiting_for.empty() ? "" : "  waiting: ", status.progress.waiting_for.c_str());
 }

@@ -8,8 +8,8 @@
 
 namespace radfarm::cli {
 
-/// Shows how a job goes on stderr: one line that is redrawn on a terminal, else a line for each new state and each
-/// tenth.
+/// Shows how a job goes on stderr: one line that is redrawn on a terminal, else a line for each new state, phase
+/// of the preparation and tenth.
 class Progress {
  public:
   enum class Style { kBar, kLines };
@@ -27,10 +27,11 @@ class Progress {
   Stopwatch watch_;
   std::string drawn_;
   std::optional<JobState> state_;
+  std::string phase_;
   int tenths_ = -1;
 };
 
-/// "rendering [######------]  12/24 tasks  3.1 s", at most 79 columns.
+/// "rendering [######------]  12/24 tasks  3.1 s" or "preparing  radiosity: links 512/20480  0.9 s", at most 79 columns.
 std::string progress_line(const JobStatus& status, double seconds);
 
 }  // namespace radfarm::cli

@@ -13,6 +13,7 @@
 #include "cli/follow.h"
 #include "cli/local_farm.h"
 #include "cli/request_flags.h"
+#include "cli/solution_folder.h"
 #include "cli/upload.h"
 #include "process/signals.h"
 
@@ -25,11 +26,13 @@ struct RenderFlags {
   RequestFlags request;
   int workers = 2;
   int threads = 0;  // 0: the machine's cores shared out
+  bool no_cache = false;
 };
 
 LocalFarm::Options farm_options(const RenderFlags& flags) {
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  return {flags.workers, flags.threads > 0 ? flags.threads : std::max(1, cores / flags.workers)};
+  return {flags.workers, flags.threads > 0 ? flags.threads : std::max(1, cores / flags.workers),
+          flags.no_cache ? "" : solution_folder()};
 }
 
 ExitCode exit_code_of(const nlohmann::json& report) {
@@ -81,6 +84,7 @@ void add_render(CLI::App& app, Action& action) {
   verb.add_option("--workers", flags->workers, "worker processes")->check(CLI::Range(1, 256));
   verb.add_option("--threads", flags->threads, "of each worker; default: the cores shared out")
       ->check(CLI::Range(1, 1024));
+  verb.add_flag("--no-cache", flags->no_cache, "neither use nor keep solved light in ~/.cache/radfarm");
   verb.callback([&action, flags] { action = [flags] { return run_render(*flags); }; });
 }
 

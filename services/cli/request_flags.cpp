@@ -90,13 +90,15 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--orthographic", flags.orthographic, "parallel view this many metres high, instead of --fov");
   app.add_option("--size", flags.size, "WIDTHxHEIGHT in pixels; default 640 wide at the camera's aspect");
   app.add_option("--up", flags.up, "Y or Z: which axis of an OBJ file points up");
-  app.add_option("--integrator", flags.integrator, "auto, gather, full-gather or path-trace");
+  app.add_option("--integrator", flags.integrator, "auto, radiosity, gather, full-gather or path-trace");
   app.add_option("--quality", flags.quality, "preview, standard, high or reference");
+  app.add_option("--oracle", flags.oracle, "KS, KL, CS, HE or VAR: what judges the links of radiosity; docs/radiosity.md");
   app.add_option("--samples", flags.samples, "camera samples a pixel; default from --quality");
   app.add_option("--threshold", flags.threshold, "largest accepted change of radiance, cd/m^2; default from --quality");
   app.add_option("--seed", flags.seed, "another seed, another independent image");
   app.add_option("--tile", flags.tile, "pixels a side of a task; never changes the image");
   app.add_flag("--no-audit", flags.no_audit, "do not measure the error");
+  app.add_flag("--mesh", flags.mesh, "draw the edges of the elements; with --integrator radiosity, and without an audit");
   app.add_option("--effects", flags.effects, "+id,-id: force effects on or off; see `radfarm explain`");
   app.add_option("--env", flags.env, "MAP.hdr, MAP.exr or sky:KEY=VALUE,...: light from all around; docs/sky.md");
   app.add_option("--ies", flags.ies, "NAME=FILE: a light of the scene shines as an IES file says; may be repeated");
@@ -119,6 +121,9 @@ Result<RenderRequest> parse_request(const RequestFlags& flags) {
   const auto quality = quality_from_string(flags.quality);
   if (!quality) return fail(Code::kInvalidArgument, "--" + quality.error().message);
   request.quality = *quality;
+  const auto oracle = oracle_from_string(flags.oracle);
+  if (!oracle) return fail(Code::kInvalidArgument, "--" + oracle.error().message);
+  request.oracle = *oracle;
   if (flags.up != "Y" && flags.up != "Z") return wrong("--up", flags.up, "must be Y or Z");
   request.up = flags.up == "Z" ? RenderRequest::UpAxis::kZ : RenderRequest::UpAxis::kY;
   RADFARM_TRY_STATUS(parse_camera(flags, request));
@@ -128,6 +133,7 @@ Result<RenderRequest> parse_request(const RequestFlags& flags) {
   request.samples = flags.samples;
   request.threshold = flags.threshold;
   request.audit = !flags.no_audit;
+  request.mesh = flags.mesh;
   request.effects = flags.effects;
   request.env = flags.env;
   RADFARM_TRY_STATUS(parse_ies(flags.ies, request));

@@ -18,14 +18,14 @@ namespace radfarm::cli {
 struct RequestFlags {
   std::optional<std::string> camera, eye, look_at, up_vector, size;
   std::optional<double> fov, orthographic;
-  std::string up = "Y", integrator = "auto", quality = "standard", effects, gather = "default", criterion = "uniform";
+  std::string up = "Y", integrator = "auto", quality = "standard", oracle = to_string(RenderRequest().oracle), effects, gather = "default", criterion = "uniform";
   std::optional<int> samples;
   std::optional<float> threshold, lens_diameter, focus_distance;
   std::string env;
   std::vector<std::string> ies;
   std::uint64_t seed = 1;
   int tile = 32;
-  bool no_audit = false;
+  bool no_audit = false, mesh = false;
   UnbuiltFlags unbuilt;
 };
 

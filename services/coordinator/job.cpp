@@ -16,6 +16,7 @@ Job::Job(std::string id, JobSpec spec, std::int64_t created_unix_seconds, LeaseP
 
 void Job::enter(JobState state) {
   state_ = state;
+  phase_ = {};
   ++revision_;
   if (is_terminal(state)) {
     leases_.close();
@@ -26,6 +27,13 @@ void Job::enter(JobState state) {
 void Job::start_preparing() {
   RADFARM_CHECK(state_ == JobState::kQueued);
   enter(JobState::kPreparing);
+}
+
+bool Job::prepare_progress(JobPhase phase) {
+  if (state_ != JobState::kPreparing) return false;
+  phase_ = std::move(phase);
+  ++revision_;
+  return true;
 }
 
 void Job::start_rendering(TaskInputs inputs, std::vector<Task> tasks) {
@@ -120,7 +128,7 @@ JobStatus Job::status() const {
           state_,
           revision_,
           created_unix_seconds_,
-          {total, counts.committed, counts.leased, counts.failed, counts.expired, counts.diverged, ""},
+          {total, counts.committed, counts.leased, counts.failed, counts.expired, counts.diverged, "", phase_},
           failure_.value_or(JobFailure{}),
           artifacts_};
 }

@@ -28,6 +28,8 @@ class Job {
 
   // What the scheduler reports. Requires: the state on the left of the arrow.
   void start_preparing();                                            // QUEUED -> PREPARING
+  /// Keeps what the preparation says of itself; of a job in another state it is nothing new. True when it was kept.
+  bool prepare_progress(JobPhase phase);
   void start_rendering(TaskInputs inputs, std::vector<Task> tasks);  // PREPARING -> RENDERING, or a job without tasks
   void start_assembling();                                           // RENDERING, all committed -> ASSEMBLING
   void succeed(std::vector<Artifact> artifacts);                     // ASSEMBLING -> SUCCEEDED
@@ -72,6 +74,7 @@ class Job {
   LeasePolicy policy_;
   JobState state_ = JobState::kQueued;
   std::uint64_t revision_ = 1;
+  JobPhase phase_;  // while PREPARING
   TaskInputs inputs_;
   std::vector<Task> tasks_;
   Leases leases_;

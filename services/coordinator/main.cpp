@@ -37,6 +37,7 @@ void add_serve_flags(CLI::App& app, ServeFlags& flags) {
   ServerOptions& server = flags.server;
   server.max_blob_bytes = limits::kBlobBytes;
   server.scheduler.prepare.memory_bytes = physical_memory();
+  server.scheduler.prepare.solution_bytes = std::uint64_t{4} << 30U;
   app.add_option("--listen", server.listen, "HOST:PORT for clients; port 0 lets the system choose");
   app.add_option("--worker-listen", server.worker_listen, "HOST:PORT for workers");
   app.add_option("--data", server.data, "folder for blobs; belongs to one coordinator at a time")->required();
@@ -46,6 +47,10 @@ void add_serve_flags(CLI::App& app, ServeFlags& flags) {
       ->check(CLI::Range(1, 7 * 86400));
   app.add_option("--prepare-memory-bytes", server.scheduler.prepare.memory_bytes,
                  "address space of a preparing process; 0 for no limit");
+  app.add_option("--solutions", server.scheduler.prepare.solutions,
+                 "folder for solved light that later jobs use again; default: solutions in --data");
+  app.add_option("--solution-bytes", server.scheduler.prepare.solution_bytes,
+                 "of all solved light together, what was used longest ago goes first; 0 keeps none");
   app.add_option("--parent-pid", flags.parent_pid, "end when this process ends, which must have started this one");
 }
 
@@ -83,6 +88,8 @@ int run(int argc, char** argv) {
   prepare.add_option("--scene", child.scene)->required();
   prepare.add_option("--request", child.request)->required();
   prepare.add_option("--out", child.out)->required();
+  prepare.add_option("--solutions", child.solutions);
+  prepare.add_option("--solution-bytes", child.solution_bytes);
   prepare.add_option("--memory-bytes", child.memory_bytes);
   prepare.add_option("--parent-pid", child.parent_pid)->required();
   try {

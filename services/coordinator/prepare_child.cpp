@@ -3,13 +3,18 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
+#include <functional>
 #include <iostream>
+#include <mutex>
 #include <new>
 
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/log.h"
+#include "base/utf8.h"
 #include "frame/request.h"
 #include "pipeline/pipeline.h"
 #include "process/exit_code.h"
@@ -42,11 +47,35 @@ Result<RenderRequest> read_request(const std::filesystem::path& path) {
   return render_request_from_json(json);
 }
 
+/// Prints how far the preparation is, as often as a person can read it.
+class PhasePrinter {
+ public:
+  void operator()(std::string_view phase, std::uint64_t done, std::uint64_t total) {
+    const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    if (phase == phase_ && (now - printed_ < kInterval || done <= done_)) return;
+    phase_ = phase;
+    done_ = done;
+    printed_ = now;
+    const std::string line = nlohmann::json{{"phase", phase_}, {"done", done}, {"total", total}}.dump() + "\n";
+    (void)!::write(STDOUT_FILENO, line.data(), line.size());
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kInterval{200};
+  std::mutex mutex_;
+  std::string phase_;
+  std::uint64_t done_ = 0;
+  std::chrono::steady_clock::time_point printed_;
+};
+
 Status prepare_files(const PrepareChildOptions& options) {
   RADFARM_TRY_STATUS(die_with_parent(options.parent_pid));
   RADFARM_TRY(const RenderRequest request, read_request(options.request));
   RADFARM_TRY_STATUS(validate(request));
-  RADFARM_TRY(const PreparedFiles files, prepare(options.scene, request));
+  PhasePrinter print;
+  const PrepareContext context{{options.solutions, options.solution_bytes}, Progress(std::ref(print))};
+  RADFARM_TRY(const PreparedFiles files, prepare(options.scene, request, context));
   RADFARM_TRY_STATUS(write_file_atomically(options.out / kSceneFile, files.scene));
   RADFARM_TRY_STATUS(write_file_atomically(options.out / kSolutionFile, files.solution));
   return write_file_atomically(options.out / kViewFile, files.view);
@@ -64,6 +93,7 @@ std::string without_folder(std::string message, const std::filesystem::path& fol
 }  // namespace
 
 int run_prepare_child(const PrepareChildOptions& options) {
+  start_logging("radfarm-coordinator prepare-child", spdlog::level::warn);
   limit_memory(options.memory_bytes);
   const Status done = prepare_files(options);
   if (done) return static_cast<int>(ExitCode::kDone);
@@ -79,6 +109,19 @@ std::optional<Error> parse_child_error(const std::string& line) {
   if (!json["code"].is_number_integer() || !json["message"].is_string()) return std::nullopt;
   const int code = json["code"].get<int>();
   return Error{code >= 1 && code <= 16 ? static_cast<Code>(code) : Code::kUnknown, json["message"].get<std::string>()};
+}
+
+std::optional<JobPhase> parse_child_phase(const std::string& line) {
+  const nlohmann::json json = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || !json.contains("phase") || !json["phase"].is_string()) return std::nullopt;
+  JobPhase phase{json["phase"].get<std::string>(), 0, 0};
+  if (phase.name.size() > limits::kIdBytes || !is_utf8(phase.name) || has_control_characters(phase.name)) return std::nullopt;
+  const auto count = [&](const char* key) {
+    return json.contains(key) && json[key].is_number_unsigned() ? json[key].get<std::uint64_t>() : 0;
+  };
+  phase.done = count("done");
+  phase.total = count("total");
+  return phase;
 }
 
 }  // namespace radfarm

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/status.h"
+#include "rpc/messages.h"
 
 namespace radfarm {
 
@@ -20,15 +21,18 @@ struct PrepareChildOptions {
   std::filesystem::path scene;
   std::filesystem::path request;
   std::filesystem::path out;
-  std::uint64_t memory_bytes = 0;  // 0: no limit
+  std::filesystem::path solutions;  // solved light is kept there
+  std::uint64_t solution_bytes = 0; // of all together; 0: none is kept
+  std::uint64_t memory_bytes = 0;   // 0: no limit
   int parent_pid = 0;
 };
 
-/// Prepares and writes the three files into `out`. When it fails it prints one line of JSON {"code", "message"} on
-/// stdout. Returns the process's exit code.
+/// Prepares and writes the three files into `out`. Prints lines of JSON on stdout: {"phase", "done", "total"} for each new
+/// phase and a few times a second, and {"code", "message"} when it fails. Returns the process's exit code.
 int run_prepare_child(const PrepareChildOptions& options);
 
-/// What the line says, or nothing when it is not such a line.
+/// What a line says, or nothing when it is not such a line.
 std::optional<Error> parse_child_error(const std::string& line);
+std::optional<JobPhase> parse_child_phase(const std::string& line);
 
 }  // namespace radfarm

@@ -215,7 +215,11 @@ void Scheduler::run_preparation(const std::string& id) {
     spec = (*entry)->job.spec();
     stop = (*entry)->stop.get_token();
   }
-  auto prepared = prepare_job(spec, blobs_, options_.prepare, stop);
+  auto prepared = prepare_job(spec, blobs_, options_.prepare, stop, [&](const JobPhase& phase) {
+    const std::lock_guard lock(mutex_);
+    const Result<Entry*> entry = find(id);
+    if (entry && (*entry)->job.prepare_progress(phase)) changed(**entry);
+  });
   settle(id, [&](Entry& entry) {
     if (!prepared) {
       spdlog::warn("job {}: {}: {}", id, to_string(prepared.error().reason), prepared.error().error.message);

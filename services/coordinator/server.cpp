@@ -84,6 +84,7 @@ Status serve(const ServerOptions& options, const std::function<void(const Server
   RADFARM_TRY(const BlobStore blobs, BlobStore::open(options.data / "blobs", options.max_blob_bytes));
   SchedulerOptions scheduler_options = options.scheduler;
   RADFARM_TRY(scheduler_options.prepare.scratch, empty_scratch(options.data / "scratch"));
+  if (scheduler_options.prepare.solutions.empty()) scheduler_options.prepare.solutions = options.data / "solutions";
 
   grpc::EnableDefaultHealthCheckService(true);
   Scheduler scheduler(blobs, scheduler_options);

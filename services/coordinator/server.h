@@ -14,7 +14,7 @@ struct ServerOptions {
   std::string worker_listen = "127.0.0.1:7401";  // for workers
   std::filesystem::path data;
   std::uint64_t max_blob_bytes = 0;
-  SchedulerOptions scheduler;  // prepare.scratch is set from `data`
+  SchedulerOptions scheduler;  // prepare.scratch is set from `data`, prepare.solutions where it is empty
 };
 
 struct ServerAddresses {

@@ -61,14 +61,24 @@ tl::unexpected<JobFailure> broken(Reason reason, Error error) {
   return tl::unexpected(JobFailure{reason, std::move(error)});
 }
 
+/// Hears what the child says until it ends or time is over; the error among it, if there is one.
+std::optional<Error> listen(ChildProcess& child, std::chrono::steady_clock::time_point deadline,
+                            const std::function<void(const JobPhase&)>& on_phase) {
+  std::optional<Error> said;
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    const Result<std::string> line = child.read_line(left);
+    if (!line) return said;
+    if (const std::optional<JobPhase> phase = parse_child_phase(*line)) on_phase(*phase);
+    if (std::optional<Error> error = parse_child_error(*line)) said = std::move(error);
+  }
+}
+
 /// The child's last word, or what its end says when it left none.
-tl::unexpected<JobFailure> failure_of(ChildProcess& child, const ChildProcess::Exit& exit) {
-  const Result<std::string> line = child.read_line(std::chrono::seconds(1));
-  if (line && !exit.by_signal) {
-    if (const std::optional<Error> said = parse_child_error(*line)) {
-      const bool memory = said->code == Code::kResourceExhausted && exit.number == kOutOfMemoryExit;
-      return broken(memory ? Reason::kPrepareDied : Reason::kSceneInvalid, *said);
-    }
+tl::unexpected<JobFailure> failure_of(const std::optional<Error>& said, const ChildProcess::Exit& exit) {
+  if (said && !exit.by_signal) {
+    const bool memory = said->code == Code::kResourceExhausted && exit.number == kOutOfMemoryExit;
+    return broken(memory ? Reason::kPrepareDied : Reason::kSceneInvalid, *said);
   }
   return broken(Reason::kPrepareDied, {Code::kInternal, "preparing the scene " + to_string(exit)});
 }
@@ -91,7 +101,8 @@ Result<PreparedJob> collect(const fs::path& folder, const BlobStore& blobs) {
 }  // namespace
 
 tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const BlobStore& blobs,
-                                                  const PrepareOptions& options, const std::stop_token& stop) {
+                                                  const PrepareOptions& options, const std::stop_token& stop,
+                                                  const std::function<void(const JobPhase&)>& on_phase) {
   const Result<ScratchFolder> scratch = make_scratch(options.scratch);
   if (!scratch) return broken(Reason::kInternal, scratch.error());
   const fs::path& folder = scratch->path();
@@ -104,6 +115,10 @@ tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const Blo
                                               (folder / "request.json").string(),
                                               "--out",
                                               folder.string(),
+                                              "--solutions",
+                                              options.solutions.string(),
+                                              "--solution-bytes",
+                                              std::to_string(options.solution_bytes),
                                               "--memory-bytes",
                                               std::to_string(options.memory_bytes),
                                               "--parent-pid",
@@ -112,13 +127,16 @@ tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const Blo
   if (!child) return broken(Reason::kInternal, child.error());
 
   const std::stop_callback kill(stop, [&] { child->signal(SIGKILL); });
-  const std::optional<ChildProcess::Exit> exit = child->wait(options.time_limit);
+  const auto deadline = std::chrono::steady_clock::now() + options.time_limit;
+  const std::optional<Error> said = listen(*child, deadline, on_phase);
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+  const std::optional<ChildProcess::Exit> exit = child->wait(left);
   if (!exit) {
     return broken(Reason::kPrepareDied,
                   {Code::kDeadlineExceeded, "preparing the scene took longer than " +
                                                 std::to_string(options.time_limit.count()) + " s (--prepare-seconds)"});
   }
-  if (*exit != ChildProcess::Exit{false, 0}) return failure_of(*child, *exit);
+  if (*exit != ChildProcess::Exit{false, 0}) return failure_of(said, *exit);
   Result<PreparedJob> job = collect(folder, blobs);
   if (!job) return broken(Reason::kInternal, job.error());
   return std::move(*job);

@@ -44,7 +44,7 @@ def table_of_decisions(plans):
 def seconds(name, flags, effects, folder):
     report = folder / "report.json"
     command = [BUILD / "bin/radfarm", "render", SCENES / f"{name}.gltf", "-o", folder / "image.exr", "--report", report, "--size", "160x120",
-               "--integrator", "path-trace", "--samples", "64", "--no-audit", "--workers", "1", *flags]
+               "--integrator", "path-trace", "--samples", "64", "--no-audit", "--workers", "1", "--no-cache", *flags]
     subprocess.run(command + (["--effects", effects] if effects else []), capture_output=True, check=True, cwd=ROOT)
     return sum(s["cpu_s"] for s in json.loads(report.read_text())["stages"] if s["name"] == "tasks")
 

@@ -74,7 +74,7 @@ int run(const char* path, int width) {
   if (!camera) return std::fprintf(stderr, "%s\n", camera.error().message.c_str()), 3;
   Settings settings = resolve_settings(request, camera->camera);
   const RadiositySolution solution = solve_radiosity(world, settings.radiosity, 1);
-  settings.senders.threshold = default_threshold(solution, threshold_share(request.quality));
+  settings.senders.threshold = threshold_share(request.quality) * mean_radiance(solution);
   const SenderTree tree = make_sender_tree(solution);
   const SenderGrid grid(classify_visible(world, tree, camera->camera, settings.width, settings.height, settings.senders, 1),
                         world, tree, settings.senders, 1);

@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 row() {
   local name="$1-$3-$4" pair
   build/release/bin/radfarm render "$peers/$1/$1.gltf" --size "$2" --integrator "$3" --samples "$4" -o "$work/$name.exr" \
-    --report "$work/$name.json" >/dev/null 2>&1
+    --report "$work/$name.json" --no-cache >/dev/null 2>&1
   pair=$(/usr/bin/python3 "$peers/error.py" "$work/$name.exr" "$peers/$1/$1_refA.exr" "$peers/$1/$1_refB.exr")
   python3 - "$work/$name.json" "$1" "$3" "$4" "$pair" <<'PYTHON'
 import json, sys

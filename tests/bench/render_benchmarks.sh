@@ -61,7 +61,7 @@ for name in wanted or cameras:
     for integrator in ("gather", "path-trace"):
         stem = os.path.join(out, f"{name}-{integrator}")
         command = [radfarm, "render", camera["scene"], "-o", stem + ".exr", "--png", stem + ".png",
-                   "--report", stem + ".json", "--exposure", "auto", "--integrator", integrator, "--quality", quality]
+                   "--report", stem + ".json", "--exposure", "auto", "--no-cache", "--integrator", integrator, "--quality", quality]
         begin = time.monotonic()
         with open(stem + ".log", "wb") as log:
             code = subprocess.run(command + flags(camera), stdout=log, stderr=subprocess.STDOUT).returncode

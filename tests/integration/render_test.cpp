@@ -1,5 +1,6 @@
 // `radfarm render` as a person runs it.
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -16,11 +17,17 @@ namespace {
 
 using Exit = ChildProcess::Exit;
 
-/// A folder for outputs that is the children's temporary folder too: its name marks the processes of this test.
+/// A folder for outputs that is the children's temporary folder and cache too: its name marks the processes of this test.
 class RenderTest : public testing::Test {
  protected:
-  RenderTest() { ::setenv("TMPDIR", folder_.path().c_str(), 1); }
-  ~RenderTest() override { ::unsetenv("TMPDIR"); }
+  RenderTest() {
+    ::setenv("TMPDIR", folder_.path().c_str(), 1);
+    ::setenv("XDG_CACHE_HOME", output("cache").c_str(), 1);
+  }
+  ~RenderTest() override {
+    ::unsetenv("TMPDIR");
+    ::unsetenv("XDG_CACHE_HOME");
+  }
 
   ChildProcess start(std::vector<std::string> flags) {
     flags.insert(flags.begin(), "render");
@@ -62,6 +69,32 @@ TEST_F(RenderTest, WritesImagePreviewAndReport) {
   EXPECT_EQ(json["image"]["path"], output("a.exr"));
   EXPECT_EQ(json["workers"].size(), 2U);
   EXPECT_TRUE(farm_processes().empty());
+}
+
+TEST_F(RenderTest, ASecondRenderUsesTheSolutionOfTheFirst) {
+  const auto solution_of = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> flags = {scene("cornell.gltf"), "-o",        output("a.exr"), "--report",
+                                      output("a.json"),      "--quality", "preview",       "--no-audit"};
+    flags.insert(flags.end(), more.begin(), more.end());
+    EXPECT_EQ(run(flags), (Exit{false, 0}));
+    return report("a.json")["solution"];
+  };
+  const nlohmann::json first = solution_of({"--size", "16x16"}), again = solution_of({"--size", "20x12"});
+  EXPECT_EQ(first["reused"], false);
+  EXPECT_EQ(again["reused"], true);
+  EXPECT_EQ(first["digest"], again["digest"]);
+  EXPECT_EQ(solution_of({"--size", "16x16", "--no-cache"})["reused"], false);
+  EXPECT_EQ(solution_of({"--size", "16x16", "--seed", "2"})["reused"], false);
+}
+
+TEST_F(RenderTest, WithoutAPlaceForItsCacheItRendersAllTheSame) {
+  ::setenv("XDG_CACHE_HOME", "/proc/no-such-place", 1);
+  for (int n = 0; n < 2; ++n) {
+    EXPECT_EQ(run({scene("cornell.gltf"), "-o", output("a.exr"), "--report", output("a.json"), "--size", "16x16",
+                   "--quality", "preview", "--no-audit"}),
+              (Exit{false, 0}));
+    EXPECT_EQ(report("a.json")["solution"]["reused"], false);
+  }
 }
 
 TEST_F(RenderTest, ABadSceneIsExitCode3AndLeavesNothing) {
@@ -166,6 +199,50 @@ TEST_F(AddedLightTest, ExplainPrintsTheTableOfEffects) {
 
 class EndedRenderTest : public RenderTest {
  protected:
+  /// A render whose radiosity takes long, once it says that it is in `phase`.
+  ChildProcess start_until(const std::string& phase) {
+    const std::string program = test::program("radfarm").string();
+    ChildProcess render = std::move(*ChildProcess::start(
+        "/bin/sh",
+        {"-c", "exec \"$0\" \"$@\" 2>&1", program, "render", write_boxes(), "-o", output("a.exr"), "--quality", "reference"},
+        ChildProcess::Stdout::kCapture));
+    bool is_there = false;
+    while (!is_there) {
+      const Result<std::string> line = render.read_line(kPatience);
+      if (!line) break;
+      is_there = line->find(phase) != std::string::npos;
+    }
+    EXPECT_TRUE(is_there) << phase;
+    return render;
+  }
+  /// A lit room of a few thousand boxes, each of which every other may see.
+  std::string write_boxes() const {
+    std::string text = "mtllib boxes.mtl\nusemtl grey\n";
+    int vertices = 0;
+    const auto box = [&](double x, double y, double z, double size) {
+      for (int i = 0; i < 8; ++i) {
+        text += "v " + std::to_string(x + (i & 1) * size) + " " + std::to_string(y + (i >> 1 & 1) * size) + " " +
+                std::to_string(z + (i >> 2) * size) + "\n";
+      }
+      for (const auto& f : {"1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"}) {
+        text += "f";
+        for (const char* at = f; *at != 0; at += 2) {
+          text += " " + std::to_string(vertices + (*at - '0'));
+          if (at[1] == 0) break;
+        }
+        text += "\n";
+      }
+      vertices += 8;
+    };
+    for (int i = 0; i < 4096; ++i) box(i % 16, i / 16 % 16, i / 256, 0.5);
+    box(-1, -1, -1, 19);
+    text += "usemtl lamp\n";
+    box(7.6, 17, 7.6, 0.8);
+    EXPECT_TRUE(write_file_atomically(output("boxes.obj"), text));
+    EXPECT_TRUE(write_file_atomically(output("boxes.mtl"),
+                                      std::string_view("newmtl grey\nKd .7 .7 .7\nnewmtl lamp\nKd 0 0 0\nKe 9 9 9\n")));
+    return output("boxes.obj");
+  }
   /// A render that would take minutes, once its workers and a prepared scene are there.
   ChildProcess start_long_render() {
     ChildProcess render = start({scene("cornell.gltf"), "-o", output("a.exr"), "--size", "1000x1000", "--samples",
@@ -192,6 +269,19 @@ TEST_F(EndedRenderTest, CtrlCCancelsAndLeavesNothing) {
   EXPECT_EQ(render.wait(kPatience), (Exit{false, 4}));
   EXPECT_TRUE(farm_processes().empty());
   EXPECT_FALSE(std::filesystem::exists(output("a.exr")));
+}
+
+TEST_F(EndedRenderTest, CtrlCInTheMiddleOfThePreparationEndsAllWithinASecond) {
+  // Phases that last: one that is over at once may never be shown.
+  for (const char* phase : {"preparing", "radiosity: links"}) {
+    ChildProcess render = start_until(phase);
+    const auto asked = std::chrono::steady_clock::now();
+    render.signal(SIGINT);
+    EXPECT_EQ(render.wait(kPatience), (Exit{false, 4})) << phase;
+    EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(1)) << phase;
+    EXPECT_TRUE(farm_processes().empty()) << phase;
+    EXPECT_FALSE(std::filesystem::exists(output("a.exr")));
+  }
 }
 
 TEST_F(EndedRenderTest, AKilledRenderTakesItsFarmAlong) {

@@ -26,10 +26,16 @@ class SceneMaker {
   }
   /// Seen counter-clockwise from its front.
   SceneMaker& polygon(std::uint32_t material, const std::vector<Vec3>& corners) {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 1; i + 1 < corners.size(); ++i) triangles.push_back({0, i, i + 1});
+    return mesh(material, corners, triangles);
+  }
+  SceneMaker& mesh(std::uint32_t material, const std::vector<Vec3>& positions,
+                   const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     Mesh mesh;
     mesh.material = material;
-    mesh.positions = corners;
-    for (std::uint32_t i = 1; i + 1 < corners.size(); ++i) mesh.triangles.push_back({0, i, i + 1});
+    mesh.positions = positions;
+    mesh.triangles = triangles;
     scene_.meshes.push_back(std::move(mesh));
     Instance instance;
     instance.mesh = static_cast<std::uint32_t>(scene_.meshes.size() - 1);
@@ -46,6 +52,10 @@ class SceneMaker {
     polygon(m.at(3), {{d, b, c}, {d, b, f}, {d, e, f}, {d, e, c}});
     polygon(m.at(4), {{a, b, c}, {d, b, c}, {d, e, c}, {a, e, c}});
     return polygon(m.at(5), {{a, b, f}, {a, e, f}, {d, e, f}, {d, b, f}});
+  }
+  SceneMaker& light(const PunctualLight& light) {
+    scene_.lights.push_back(light);
+    return *this;
   }
   Scene take() { return std::move(scene_); }
 

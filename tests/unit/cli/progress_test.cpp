@@ -9,6 +9,13 @@ TEST(ProgressLine, ShowsStateBarAndTime) {
   JobStatus job;
   job.state = JobState::kPreparing;
   EXPECT_EQ(progress_line(job, 1.25), "preparing  1.2 s");
+  job.progress.phase = {"load", 0, 0};
+  EXPECT_EQ(progress_line(job, 1.25), "preparing  load  1.2 s");
+  job.progress.phase = {"radiosity: links", 512, 20480};
+  EXPECT_EQ(progress_line(job, 1.25), "preparing  radiosity: links 512/20480  1.2 s");
+  job.progress.phase = {std::string(100, 'x'), ~0ULL, ~0ULL};
+  EXPECT_LE(progress_line(job, 1e6).size(), 79U);
+  job.progress.phase = {};
   job.state = JobState::kRendering;
   job.progress.tasks_total = 30;
   job.progress.tasks_committed = 15;

@@ -26,7 +26,7 @@ TEST(RequestFlags, DefaultsAreTheRequestsDefaults) { EXPECT_EQ(*parse(""), Rende
 TEST(RequestFlags, FillTheRequest) {
   const RenderRequest request = *parse(
       "--size 70x50 --samples 4 --seed 9 --tile 17 --integrator path-trace --quality high --no-audit "
-      "--threshold 0.5 --up Z --camera 1");
+      "--threshold 0.5 --up Z --camera 1 --oracle HE");
   EXPECT_EQ(request.width, 70);
   EXPECT_EQ(request.height, 50);
   EXPECT_EQ(request.samples, 4);
@@ -36,6 +36,7 @@ TEST(RequestFlags, FillTheRequest) {
   EXPECT_EQ(request.quality, RenderRequest::Quality::kHigh);
   EXPECT_FALSE(request.audit);
   EXPECT_EQ(request.threshold, 0.5F);
+  EXPECT_EQ(request.oracle, Oracle::kHe);
   EXPECT_EQ(request.up, RenderRequest::UpAxis::kZ);
   EXPECT_EQ(std::get<RenderRequest::NamedCamera>(request.camera).name_or_index, "1");
 }
@@ -89,13 +90,21 @@ TEST(RequestFlags, WrongValuesAreNamedWithWhatWouldBeRight) {
   EXPECT_THAT(error_of("--up X"), HasSubstr("Y or Z"));
   EXPECT_THAT(error_of("--integrator magic"), HasSubstr("path-trace"));
   EXPECT_THAT(error_of("--quality best"), HasSubstr("standard"));
+  EXPECT_THAT(error_of("--oracle MI"), HasSubstr("KS, KL, CS, HE, VAR"));
   EXPECT_THAT(error_of("--samples 0"), HasSubstr("--samples"));
 }
 
+TEST(RequestFlags, TheMeshIsDrawnOverTheRadiositySolutionAlone) {
+  EXPECT_TRUE(parse("--integrator radiosity --mesh")->mesh);
+  EXPECT_FALSE(parse("--integrator radiosity")->mesh);
+  EXPECT_THAT(error_of("--mesh"), HasSubstr("--integrator radiosity"));
+  EXPECT_THAT(error_of("--mesh --integrator gather"), HasSubstr("--integrator radiosity"));
+}
+
 TEST(RequestFlags, WhatIsNotBuiltIsRefusedAndNotIgnored) {
-  for (const char* line : {"--error 2%", "--time 60s", "--photons 5", "--radius 1", "--oracle KL", "--mesh",
+  for (const char* line : {"--error 2%", "--time 60s", "--photons 5", "--radius 1",
                            "--aov normal", "--gather paper", "--criterion KL",
-                           "--integrator radiosity", "--integrator paths", "--integrator photon-map"}) {
+                           "--integrator paths", "--integrator photon-map"}) {
     const Result<RenderRequest> request = parse(line);
     ASSERT_FALSE(request) << line;
     EXPECT_EQ(request.error().code, Code::kUnimplemented) << line;

@@ -44,6 +44,19 @@ TEST(Job, GoesFromQueuedToSucceeded) {
   EXPECT_FALSE(job.cancel()) << "too late";
 }
 
+TEST(Job, TellsThePhaseOfItsPreparationAndOnlyOfThat) {
+  Job job = make_job();
+  EXPECT_FALSE(job.prepare_progress({"load", 0, 0}));
+  job.start_preparing();
+  const std::uint64_t before = job.status().revision;
+  EXPECT_TRUE(job.prepare_progress({"senders", 3, 9}));
+  EXPECT_GT(job.status().revision, before);
+  EXPECT_EQ(job.status().progress.phase, (JobPhase{"senders", 3, 9}));
+  job.start_rendering({"s", "", "v"}, std::vector<Task>(1));
+  EXPECT_FALSE(job.prepare_progress({"senders", 9, 9})) << "said too late";
+  EXPECT_EQ(job.status().progress.phase, JobPhase());
+}
+
 TEST(Job, KeepsResultsInTaskOrderWhateverOrderTheyComeIn) {
   Job job = rendering_job(2);
   const Lease first = *job.lease("w", kLive, "t1", kNow);

@@ -285,7 +285,6 @@ TEST(PlanEffects, DecidesOurScenesAsTheyAreMade) {
   const Measurements closed = measured("furnace"), open = measured("point_light");
   EXPECT_EQ(closed.emissive_triangles, 12U);
   EXPECT_EQ(closed.max_radiance, 1);
-  EXPECT_EQ(closed.min_reflectance, 0.5F);
   EXPECT_EQ(closed.pilot.escaped, 0U);
   EXPECT_GT(closed.pilot.walks, 0U);
   EXPECT_GT(open.pilot.escaped, 0U);

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 RenderRequest unusual_request() {
   RenderRequest request;
-  request.integrator = RenderRequest::Integrator::kPathTrace;
+  request.integrator = RenderRequest::Integrator::kRadiosity;
   request.quality = RenderRequest::Quality::kReference;
   request.camera = RenderRequest::PlacedCamera{{0.1, 2, 3}, {4, 5, 1e-17}, {0, 0, 1}, 33.3, 2.5};
   request.width = 320;
@@ -23,7 +23,9 @@ RenderRequest unusual_request() {
   request.tile = 7;
   request.samples = 3;
   request.threshold = 0.1F;
+  request.oracle = Oracle::kVar;
   request.audit = false;
+  request.mesh = true;
   request.env = "maps/sky.hdr";
   request.ies = {{"desk", "a.ies"}, {"ceiling", "b.ies"}};
   request.lens_diameter = 0.02F;

@@ -84,7 +84,7 @@ class ChangedScene {
 };
 
 TEST(Pipeline, TasksGiveTheSameBytesWheneverAndWhereverTheyRun) {
-  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kPathTrace}) {
+  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kRadiosity, RenderRequest::Integrator::kPathTrace}) {
     RenderRequest request = small_request();
     request.integrator = integrator;
     const PreparedFiles files = prepared_files("cornell", request);
@@ -106,10 +106,16 @@ TEST(Pipeline, PreparesTheSameSceneAndSolutionForAnyNumberOfThreads) {
   EXPECT_EQ(run_all(one), run_all(two));
 }
 
-TEST(Pipeline, TheTileSizeNeverChangesTheImage) {
+class TileSizeOf : public testing::TestWithParam<RenderRequest::Integrator> {};
+INSTANTIATE_TEST_SUITE_P(Pipeline, TileSizeOf,
+                         testing::Values(RenderRequest::Integrator::kGather, RenderRequest::Integrator::kRadiosity));
+
+TEST_P(TileSizeOf, NeverChangesTheImage) {
   std::vector<std::string> digests;
   for (const int tile : {8, 17, 64}) {
     RenderRequest request = small_request();
+    request.integrator = GetParam();
+    request.mesh = GetParam() == RenderRequest::Integrator::kRadiosity;
     request.tile = tile;
     request.audit = false;
     const Finished finished = render(test::own_scene_path("cornell"), request);
@@ -151,7 +157,7 @@ TEST(Pipeline, EmittersWithoutPowerGiveABlackImageAndAWarning) {
   const ChangedScene off("point_light", [](json& document) {
     document["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 0;
   });
-  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kPathTrace}) {
+  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kRadiosity, RenderRequest::Integrator::kPathTrace}) {
     RenderRequest request = small_request();
     request.integrator = integrator;
     const Finished finished = render(off.path(), request);
@@ -168,7 +174,7 @@ TEST(Pipeline, AnEmitterSwitchedOffByItsStrengthGivesABlackImageAndAWarning) {
       material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 0;
     }
   });
-  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kPathTrace}) {
+  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kRadiosity, RenderRequest::Integrator::kPathTrace}) {
     RenderRequest request = small_request();
     request.integrator = integrator;
     const Finished finished = render(off.path(), request);
@@ -212,7 +218,7 @@ TEST(Pipeline, WithoutInterreflectionNothingIsSolvedAndDirectLightIsTheSame) {
 }
 
 TEST(Pipeline, TheSkyOfAClosedSceneCostsNothing) {
-  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kPathTrace}) {
+  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kRadiosity, RenderRequest::Integrator::kPathTrace}) {
     RenderRequest request = small_request();
     request.integrator = integrator;
     request.audit = false;
@@ -225,7 +231,7 @@ TEST(Pipeline, TheSkyOfAClosedSceneCostsNothing) {
 }
 
 TEST(Pipeline, WhatIsForcedOffShowsInTheAudit) {
-  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kPathTrace}) {
+  for (const auto integrator : {RenderRequest::Integrator::kGather, RenderRequest::Integrator::kRadiosity, RenderRequest::Integrator::kPathTrace}) {
     RenderRequest request = small_request();
     request.integrator = integrator;
     request.samples = 16;

@@ -94,5 +94,20 @@ TEST(Reach, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(with(1), with(2));
 }
 
+TEST(Reach, ALampTooFarAwayForRaysToMeetReachesWhatSeesIt) {
+  test::SceneMaker maker;
+  const std::uint32_t lamp = maker.material(Spectrum(0.0F), Spectrum(1.0F)), grey = maker.material(Spectrum(0.5F));
+  maker.polygon(lamp, {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}});
+  maker.polygon(grey, {{0, 1000, 0}, {1, 1000, 0}, {1, 1000, 1}, {0, 1000, 1}});
+  const World world(maker.take());
+  const SideNumbers sides(world.scene);
+  const std::vector<bool> reached = reachable_sides(world, sides, 1);
+  for (std::uint32_t triangle = 0; triangle < 2; ++triangle) {
+    EXPECT_TRUE(reached[sides.of(1, triangle, true)]);
+    EXPECT_FALSE(reached[sides.of(1, triangle, false)]) << "looks away";
+    EXPECT_FALSE(reached[sides.of(0, triangle, false)]) << "the lamp's back";
+  }
+}
+
 }  // namespace
 }  // namespace radfarm

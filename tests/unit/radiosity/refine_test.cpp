@@ -1,5 +1,6 @@
 #include "radiosity/refine.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -101,12 +102,32 @@ TEST(Refine, KeepsTheErrorsOfItsLinksBelowTheLimit) {
   }
 }
 
-TEST(Refine, StopsAtTheLargestNumberOfLinks) {
+double misplaced_by_all(const Refined& r) {
+  double sum = 0;
+  for (const Link& link : r.links) {
+    const Node& to = r.hierarchy.nodes[link.receiver];
+    sum += static_cast<double>(max_component(to.reflectance) * to.area * link.emitted_error *
+                               luminance(r.hierarchy.nodes[link.sender].emitted_power));
+  }
+  return sum;
+}
+
+TEST(Refine, ABudgetOfLinksIsKeptAndSpentOnTheWorst) {
   const World world(test::own_scene("emitters_reflect"));
   RadiositySettings settings = coarse();
-  settings.max_links = 100;
-  // A split of both ends replaces one link by at most four, and by sixteen when patches are cut.
-  EXPECT_LE(refine_once(world, settings).links.size(), 116U);
+  settings.max_link_error = 1e-7F;
+  settings.min_patch_area = 1e-5F;
+  std::vector<double> misplaced;
+  for (const std::uint32_t budget : {50U, 500U, 5000U}) {
+    settings.max_links = budget;
+    const Refined r = refine_once(world, settings);
+    EXPECT_LE(r.links.size(), budget);
+    // A level takes half of the room left, and stops when that is less than one split: a patch into four at both ends.
+    EXPECT_GT(r.links.size(), budget - std::max(32U, budget / 10));
+    misplaced.push_back(misplaced_by_all(r));
+  }
+  // An oracle of 10 lines is noisy: only budgets far apart are compared.
+  EXPECT_LT(misplaced[2], 0.5 * misplaced[0]);
 }
 
 TEST(Refine, MeasuringAgainDropsOnlyLinksWithoutLight) {

@@ -88,7 +88,8 @@ TEST(Wire, WorkerNamesArePrintableUtf8) {
 }
 
 TEST(Wire, JobStatusComesBack) {
-  JobStatus status{"id1", "room", JobState::kFailed, 9, 1700000000, {10, 4, 2, 3, 1, 0, "no worker"}, {}, {}};
+  JobStatus status{"id1", "room", JobState::kFailed, 9, 1700000000, {10, 4, 2, 3, 1, 0, "no worker", {"radiosity: links", 7, 1ULL << 40U}},
+                   {}, {}};
   status.failure = {JobFailure::Reason::kTaskFailed, {Code::kDataLoss, "task 3: damaged"}};
   status.artifacts = {{"image.exr", {kDigest, 5}}};
   v1::RenderJob message;

@@ -98,7 +98,6 @@ TEST_P(JudgeIrradianceIn, BoundsWhatClustersGive) {
 
 /// A tree of one triangle that sends 1 lm/m^2.
 SenderTree one_patch(const TriangleVertices& vertices, bool emits) {
-  SenderTree tree;
   SenderPatch patch;
   patch.vertices = vertices;
   patch.normal = normalize(cross(vertices[1] - vertices[0], vertices[2] - vertices[0]));
@@ -109,9 +108,7 @@ SenderTree one_patch(const TriangleVertices& vertices, bool emits) {
   node.max_radiosity = 1;
   (emits ? node.emitted_power : node.reflected_power) = Spectrum(patch.area);
   node.patch = 0;
-  tree.nodes = {node};
-  tree.patches = {patch};
-  return tree;
+  return own_sender_tree({node}, {patch});
 }
 
 TEST(JudgeIrradiance, BoundsWhatPatchesOfAnyOrientationGive) {

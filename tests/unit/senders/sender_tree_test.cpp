@@ -23,7 +23,7 @@ TEST(SenderTree, HasTheSolutionsPowerAtItsRootAndInItsLeaves) {
       if (node.patch != kNone) leaves += static_cast<double>(power_of(node));
     }
     // Sums of thousands of floats.
-    EXPECT_NEAR(static_cast<double>(power_of(scene.tree.nodes.at(0))), truth, 1e-4 * truth) << name;
+    EXPECT_NEAR(static_cast<double>(power_of(scene.tree.nodes[0])), truth, 1e-4 * truth) << name;
     EXPECT_NEAR(leaves, truth, 1e-4 * truth) << name;
   }
 }
@@ -50,6 +50,8 @@ TEST(SenderTree, RoundTripKeepsEveryByte) {
   const Result<SenderTree> again = decode_sender_tree(bytes);
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(again->nodes.size(), scene.tree.nodes.size());
+  const std::span<const std::byte> nodes = std::as_bytes(again->nodes);
+  EXPECT_TRUE(nodes.data() > bytes.data() && nodes.data() + nodes.size() < bytes.data() + bytes.size()) << "used in place";
   EXPECT_EQ(encode(*again), bytes);
 }
 
@@ -77,12 +79,22 @@ TEST(SenderTree, HostileBytesGiveDataLossOrASoundTree) {
   }
 }
 
+TEST(SenderTree, ACopyKeepsTheArraysAlive) {
+  SenderTree copy;
+  {
+    const SenderTree tree = own_sender_tree({SenderNode()}, {SenderPatch()});
+    copy = tree;
+  }
+  EXPECT_EQ(copy.arrays.use_count(), 1);
+  EXPECT_EQ(copy.nodes[0].patch, kNone);
+}
+
 TEST(SenderTree, SamplesLieOnTheirPatch) {
   const SolvedScene scene("cornell");
   RandomSequence random(2);
   for (int n = 0; n < 5000; ++n) {
     const SenderSample s = sample_sender(scene.tree, 0, random.uniform(), {random.uniform(), random.uniform()});
-    const SenderPatch& patch = scene.tree.patches.at(s.patch);
+    const SenderPatch& patch = scene.tree.patches[s.patch];
     const TriangleVertices& v = patch.vertices;
     EXPECT_LT(length(v[0] * (1 - s.u - s.v) + v[1] * s.u + v[2] * s.v - s.position), 1e-5F);
     EXPECT_EQ(s.normal, patch.normal);

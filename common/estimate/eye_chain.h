@@ -1,0 +1,23 @@
+#pragma once
+
+#include "estimate/diffuse_light.h"
+#include "estimate/radiance_parts.h"
+
+namespace radfarm {
+
+/// What the chains of a view borrow.
+struct EyeChainContext {
+  const World& world;
+  const DiffuseLight& light;
+  bool has_interreflection = true;  // off: `indirect` is not returned
+};
+
+/// sampler.key() of what decides, at holes, which surface the camera sees first.
+inline constexpr std::uint32_t kCoverageDimension = 1;
+
+/// What a camera ray sees, by panes, mirrors, glass and gloss too: each diffuse surface on the way gets its light from
+/// `context.light`; what is specular is followed by rays.                                  docs/pipeline.md (gather.6)
+RadianceParts trace_eye_chain(const EyeChainContext& context, const Ray& camera_ray, const PixelSampler& sampler,
+                              Counters& counters);
+
+}  // namespace radfarm

@@ -1,0 +1,33 @@
+#include "pipeline/solution_key.h"
+
+#include "base/digest.h"
+#include "pipeline/fingerprint.h"
+#include "scene/scene_file.h"
+
+namespace radfarm {
+namespace {
+
+/// Of all in the scene that light depends on.
+std::string light_digest(Scene scene) {
+  scene.cameras.clear();
+  scene.notes.clear();
+  return sha256_hex(encode_scene(scene));
+}
+
+}  // namespace
+
+std::string solution_key(const Scene& scene, const RadiositySettings& settings, std::uint64_t seed, bool is_reflecting,
+                         LightForm form) {
+  Sha256 hash;
+  hash.update(build_id());
+  hash.update(program_digest());
+  hash.update(numeric_fingerprint());
+  hash.update(light_digest(scene));
+  hash.update(std::as_bytes(std::span(&settings, 1)));  // no padding: asserted where Settings is stored
+  hash.update_value(seed);
+  hash.update_value(is_reflecting ? 1U : 0U);
+  hash.update_value(static_cast<std::uint64_t>(form));
+  return hash.hex();
+}
+
+}  // namespace radfarm
