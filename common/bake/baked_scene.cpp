@@ -13,6 +13,8 @@ namespace radfarm {
 namespace {
 
 constexpr double kMiddleGrey = 0.18;
+// Backs stand so far off their fronts, of the scene's radius (0.1 mm in 8 m), for viewers that draw triangles from both sides.
+constexpr float kBackGap = 0x1p-16F;
 
 /// One side of one triangle.
 struct Side {
@@ -75,6 +77,7 @@ const TextureUse& texture_of(const Material& material, BakedMaterial::Shows show
 BakedVertex bake_vertex(const World& world, const Side& side, BakedMaterial::Shows shows, const MeshVertex& vertex, float gain) {
   const SurfacePoint point = surface_at(world.surfaces, side, vertex.position);
   BakedVertex baked{vertex.position, {}, {0, 0}, vertex.irradiance.total()};
+  if (!side.is_front) baked.position += point.shading_normal * (kBackGap * world.radius);
   const Spectrum color = radiance(world, point, shows, baked.irradiance) * gain;
   baked.color = {to_unsigned(color.r), to_unsigned(color.g), to_unsigned(color.b), to_unsigned(point.color[3])};
   if (shows != BakedMaterial::Shows::kColor) {

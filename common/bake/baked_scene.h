@@ -27,7 +27,7 @@ struct BakedMaterial {
 };
 
 /// The elements of the fronts or of the backs of one instance, where light reaches them: both sides of a sheet are there, each
-/// with its light, so triangles show from one side alone.
+/// with its light, so triangles show from one side alone. Backs are moved outwards by 2^-16 of the scene's radius.
 struct BakedMesh {
   std::string name;
   std::uint32_t material = 0;  // of BakedScene

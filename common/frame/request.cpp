@@ -266,6 +266,7 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
   if (key == "seed") return read(value, key, request.seed);
   if (key == "tile") return read(value, key, request.tile);
   if (key == "samples") return read(value, key, request.samples);
+  if (key == "link_error") return read(value, key, request.link_error);
   if (key == "threshold") return read(value, key, request.threshold);
   if (key == "oracle") return read(value, key, request.oracle);
   if (key == "audit") return read(value, key, request.audit);
@@ -286,6 +287,9 @@ Status validate(const RenderRequest& request) {
   RADFARM_TRY_STATUS(check_range("--size: height", request.height, 1, kMaxSide));
   RADFARM_TRY_STATUS(check_range("--tile", request.tile, 1, kMaxTile));
   RADFARM_TRY_STATUS(check_range("--samples", request.samples, 1, kMaxSamples));
+  if (request.link_error && !(*request.link_error > 0 && *request.link_error <= 1)) {
+    return invalid("--link-error is " + std::to_string(*request.link_error) + ", must be a share in (0, 1]");
+  }
   if (request.threshold && !(*request.threshold > 0 && std::isfinite(*request.threshold))) {
     return invalid("--threshold is " + std::to_string(*request.threshold) + ", must be positive and finite, in cd/m^2");
   }
@@ -321,6 +325,7 @@ nlohmann::json to_json(const RenderRequest& request) {
   if (request.width) json["width"] = *request.width;
   if (request.height) json["height"] = *request.height;
   if (request.samples) json["samples"] = *request.samples;
+  if (request.link_error) json["link_error"] = *request.link_error;
   if (request.threshold) json["threshold"] = *request.threshold;
   return json;
 }

@@ -41,6 +41,7 @@ struct RenderRequest {
   std::uint64_t seed = 1;
   int tile = 32;                          // pixels a side; never changes the image
   std::optional<int> samples;             // camera samples a pixel; by default from quality
+  std::optional<float> link_error;        // largest share of all light that a link may misplace; by default from quality
   std::optional<float> threshold;         // largest accepted change of radiance, cd/m^2; by default from quality
   Oracle oracle = LinkOracle().criterion;  // what judges the links of the radiosity solve
   bool audit = true;

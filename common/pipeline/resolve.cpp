@@ -113,7 +113,7 @@ Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   settings.audit_pixels = has_audit ? quality.audit_pixels : 0;
   settings.audit_samples = has_audit ? quality.audit_samples : 0;
   settings.draws_mesh = request.mesh ? 1 : 0;
-  settings.radiosity.max_link_error = quality.max_link_error;
+  settings.radiosity.max_link_error = request.link_error.value_or(quality.max_link_error);
   settings.radiosity.direct_samples = quality.direct_samples;
   settings.radiosity.hits_per_patch = quality.hits_per_patch;
   settings.radiosity.oracle.criterion = request.oracle;

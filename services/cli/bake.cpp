@@ -78,6 +78,7 @@ void add_bake(CLI::App& app, Action& action) {
   verb.add_option("-o,--output", flags->output, "OUT.glb")->required();
   verb.add_option("--exposure", flags->exposure, "EV (stops) or auto: how bright the vertex colours are");
   verb.add_option("--quality", flags->request.quality, "preview, standard, high or reference");
+  verb.add_option("--link-error", flags->request.link_error, "largest share of all light that one link may misplace; default from --quality");
   verb.add_option("--seed", flags->request.seed, "another seed, another independent solution");
   verb.add_option("--up", flags->request.up, "Y or Z: which axis of an OBJ file points up");
   verb.add_option("--effects", flags->request.effects, "+id,-id: force effects on or off; see `radfarm explain`");

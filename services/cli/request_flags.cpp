@@ -94,6 +94,8 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--quality", flags.quality, "preview, standard, high or reference");
   app.add_option("--oracle", flags.oracle, "KS, KL, CS, HE or VAR: what judges the links of radiosity; docs/radiosity.md");
   app.add_option("--samples", flags.samples, "camera samples a pixel; default from --quality");
+  app.add_option("--link-error", flags.link_error,
+                 "largest share of all light that one radiosity link may misplace; default from --quality");
   app.add_option("--threshold", flags.threshold, "largest accepted change of radiance, cd/m^2; default from --quality");
   app.add_option("--seed", flags.seed, "another seed, another independent image");
   app.add_option("--tile", flags.tile, "pixels a side of a task; never changes the image");
@@ -131,6 +133,7 @@ Result<RenderRequest> parse_request(const RequestFlags& flags) {
   request.seed = flags.seed;
   request.tile = flags.tile;
   request.samples = flags.samples;
+  request.link_error = flags.link_error;
   request.threshold = flags.threshold;
   request.audit = !flags.no_audit;
   request.mesh = flags.mesh;

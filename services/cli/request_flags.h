@@ -20,7 +20,7 @@ struct RequestFlags {
   std::optional<double> fov, orthographic;
   std::string up = "Y", integrator = "auto", quality = "standard", oracle = to_string(RenderRequest().oracle), effects, gather = "default", criterion = "uniform";
   std::optional<int> samples;
-  std::optional<float> threshold, lens_diameter, focus_distance;
+  std::optional<float> link_error, threshold, lens_diameter, focus_distance;
   std::string env;
   std::vector<std::string> ies;
   std::uint64_t seed = 1;

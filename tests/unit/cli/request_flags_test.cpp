@@ -26,7 +26,7 @@ TEST(RequestFlags, DefaultsAreTheRequestsDefaults) { EXPECT_EQ(*parse(""), Rende
 TEST(RequestFlags, FillTheRequest) {
   const RenderRequest request = *parse(
       "--size 70x50 --samples 4 --seed 9 --tile 17 --integrator path-trace --quality high --no-audit "
-      "--threshold 0.5 --up Z --camera 1 --oracle HE");
+      "--threshold 0.5 --link-error 0.001 --up Z --camera 1 --oracle HE");
   EXPECT_EQ(request.width, 70);
   EXPECT_EQ(request.height, 50);
   EXPECT_EQ(request.samples, 4);
@@ -36,6 +36,7 @@ TEST(RequestFlags, FillTheRequest) {
   EXPECT_EQ(request.quality, RenderRequest::Quality::kHigh);
   EXPECT_FALSE(request.audit);
   EXPECT_EQ(request.threshold, 0.5F);
+  EXPECT_EQ(request.link_error, 0.001F);
   EXPECT_EQ(request.oracle, Oracle::kHe);
   EXPECT_EQ(request.up, RenderRequest::UpAxis::kZ);
   EXPECT_EQ(std::get<RenderRequest::NamedCamera>(request.camera).name_or_index, "1");

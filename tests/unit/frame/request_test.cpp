@@ -22,6 +22,7 @@ RenderRequest unusual_request() {
   request.seed = 18446744073709551615U;
   request.tile = 7;
   request.samples = 3;
+  request.link_error = 1e-3F;
   request.threshold = 0.1F;
   request.oracle = Oracle::kVar;
   request.audit = false;
@@ -116,6 +117,8 @@ TEST(RenderRequest, ValuesOutOfRangeNameTheirFlag) {
       {"--size", [](RenderRequest& r) { r.height = 16385; }},
       {"--tile", [](RenderRequest& r) { r.tile = 0; }},
       {"--samples", [](RenderRequest& r) { r.samples = -1; }},
+      {"--link-error", [](RenderRequest& r) { r.link_error = 0.0F; }},
+      {"--link-error", [](RenderRequest& r) { r.link_error = std::numeric_limits<float>::quiet_NaN(); }},
       {"--threshold", [](RenderRequest& r) { r.threshold = 0.0F; }},
       {"--threshold", [](RenderRequest& r) { r.threshold = std::numeric_limits<float>::quiet_NaN(); }},
       {"--eye", [](RenderRequest& r) { r.camera = placed({kNan, 0, 0}, {1, 0, 0}); }},

@@ -12,33 +12,18 @@
 #include "base/random.h"
 #include "math/statistics.h"
 #include "radiosity/solve.h"
-#include "support/small_scenes.h"
 #include "support/statistics.h"
+#include "unit/radiosity/all_sides.h"
 
 namespace radfarm {
 namespace {
 
+using test::Sides;
+using test::sum_of;
+
 constexpr double kFlux = 24 * std::numbers::pi;  // of the furnace: L_e 1, 24 m^2
 constexpr std::size_t kTests = 7;                // of laws, in this file
 const double kLevel = test::sidak_level(1e-6, kTests);
-
-/// A scene with all its sides in a hierarchy.
-struct Sides {
-  explicit Sides(const std::string& name)
-      : world(test::own_scene(name)),
-        sides(world.scene),
-        hierarchy(build_hierarchy(world, sides, std::vector<bool>(sides.count, true))) {}
-
-  World world;
-  SideNumbers sides;
-  Hierarchy hierarchy;
-};
-
-double sum_of(const std::vector<SpectrumD>& values) {
-  double sum = 0;
-  for (const SpectrumD& value : values) sum += luminance(value);
-  return sum;
-}
 
 TEST(FollowLight, AFurnaceAbsorbsWhatItEmits) {
   const Sides furnace("furnace");

@@ -8,28 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "support/small_scenes.h"
+#include "unit/radiosity/all_sides.h"
 
 namespace radfarm {
 namespace {
 
-/// A scene with all its sides in a hierarchy.
-struct Sides {
-  explicit Sides(const std::string& name)
-      : world(test::own_scene(name)),
-        sides(world.scene),
-        hierarchy(build_hierarchy(world, sides, std::vector<bool>(sides.count, true))) {}
-
-  World world;
-  SideNumbers sides;
-  Hierarchy hierarchy;
-};
-
-double sum_of(const std::vector<SpectrumD>& values) {
-  double sum = 0;
-  for (const SpectrumD& value : values) sum += luminance(value);
-  return sum;
-}
+using test::Sides;
+using test::sum_of;
 
 /// Random power over the undivided patches, in proportion to their area times a factor of e^-3 to e^3 in each channel.
 std::vector<Spectrum> random_guess(const Hierarchy& hierarchy, std::uint64_t seed) {
