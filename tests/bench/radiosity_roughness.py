@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the gather's image loses when the radiosity under it gets rougher: a Markdown table.
 
-    tests/bench/radiosity_roughness.py BUILD SCENE [--reference 512] [-- RENDER-FLAGS...]
+    tests/bench/radiosity_roughness.py BUILD SCENE [--reference 512] [RENDER-FLAGS...]
 
 Renders SCENE by `gather` with --link-error from 1 (nothing is refined) downwards, all else as at standard quality, and compares it with two
 independent halves of `path-trace`, whose noise cancels: MSE = (MSE(x, a) + MSE(x, b) - MSE(a, b)) / 2. The mean that errors are shares of
@@ -33,17 +33,16 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("scene", type=pathlib.Path)
     parser.add_argument("--reference", type=int, default=512)
-    parser.add_argument("flags", nargs="*")
-    a = parser.parse_args()
+    a, flags = parser.parse_known_args()
     with tempfile.TemporaryDirectory() as folder:
         halves = [pathlib.Path(folder, f"{n}.exr") for n in (1, 2)]
         for seed, half in enumerate(halves, 1):
-            render(a.build, a.scene, half, [*a.flags, "--integrator", "path-trace", "--samples", a.reference, "--seed", 1000 + seed])
+            render(a.build, a.scene, half, [*flags, "--integrator", "path-trace", "--samples", a.reference, "--seed", 1000 + seed])
         noise = compare(a.build, *halves)["rmse"] ** 2
         print("| link error | links | elements | radiosity, CPU s | error | ratio of means |\n|---|---|---|---|---|---|")
         for error in ERRORS:
             image = pathlib.Path(folder, "x.exr")
-            report = render(a.build, a.scene, image, [*a.flags, "--integrator", "gather", "--link-error", error])
+            report = render(a.build, a.scene, image, [*flags, "--integrator", "gather", "--link-error", error])
             with_each = [compare(a.build, image, half) for half in halves]
             mse = (sum(c["rmse"] ** 2 for c in with_each) - noise) / 2
             mean = sum(c["mean_b"] for c in with_each) / 2
