@@ -103,14 +103,14 @@ std::vector<Spectrum> combine_with_guess(const Hierarchy& hierarchy, const PathH
   }
   pull_up(hierarchy, sums);
   const std::vector<Split> splits = make_splits(hierarchy, sums);
-  GuessTrust trust;
-  for (const Split& split : splits) trust.learn(split);
+  std::array<GuessTrust, 2> trust;  // links share a cluster's light among its patches otherwise than a patch's among its parts
+  for (std::size_t i = 0; i < splits.size(); ++i) trust[hierarchy.nodes[i].is_cluster() ? 0 : 1].learn(splits[i]);
   std::vector<SpectrumD> shared(power.size());
   shared[0] = sums.found[0];
   for (std::uint32_t i = 0; i < power.size(); ++i) {
     const Node& node = hierarchy.nodes[i];
     if (node.child_count == 0) power[i] = Spectrum(shared[i]);
-    const double weight = trust.weight(splits[i]), n = sums.count[i];
+    const double weight = trust[node.is_cluster() ? 0 : 1].weight(splits[i]), n = sums.count[i];
     const SpectrumD& all_likely = sums.likely[i];
     const SpectrumD& all_found = sums.found[i];
     for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
