@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "effects/detail.h"
 #include "effects/texture_range.h"
 #include "scene/photometry.h"
 
@@ -113,11 +114,15 @@ void measure_light(const World& world, Measurements& m) {
 
 }  // namespace
 
-Measurements measure(const World& world, const ViewSize& view, std::uint64_t seed) {
+Measurements measure(const World& world, const ViewSize& view, std::uint64_t seed, const Progress& progress) {
   Measurements m;
   measure_light(world, m);
+  progress.report("effects: materials");
   measure_materials(world.scene, m);
+  progress.report("effects: pilot");
   m.pilot = run_pilot(world, view.camera, view.width, view.height, seed);
+  m.detail_elevation = detail_elevation(world, view.camera, view.width, view.height, kMaxElevation);
+  progress.report("effects: trapped light");
   m.trapped = find_trapped_light(world, seed);
   return m;
 }

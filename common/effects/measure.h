@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/progress.h"
 #include "effects/pilot.h"
 #include "effects/trapped_light.h"
 #include "scene/world.h"
@@ -34,9 +35,13 @@ struct Measurements {
   float emission_contrast = 0;             // |L - mean L| of any texel of an emission texture, cd/m^2
   float normal_map_angle = 0;              // largest, degrees
   std::size_t reflectance_textures = 0, emission_textures = 0, normal_maps = 0;
+  double detail_elevation = 1;             // of the visible threshold, by what the camera sees: mean, 1 to kMaxElevation
   Pilot pilot;
   std::optional<TrappedLight> trapped;     // light that can never be lost
 };
+
+/// Detail raises the threshold of what is visible by so much at most.
+inline constexpr float kMaxElevation = 10;
 
 /// What of a view: its camera and its size in pixels.
 struct ViewSize {
@@ -46,6 +51,6 @@ struct ViewSize {
 };
 
 /// Cost: O(materials + texels) and the pilot's rays.
-Measurements measure(const World& world, const ViewSize& view, std::uint64_t seed);
+Measurements measure(const World& world, const ViewSize& view, std::uint64_t seed, const Progress& progress = {});
 
 }  // namespace radfarm

@@ -17,6 +17,7 @@ constexpr double kJustInvisible = 0.005;
 constexpr double kLeastBlur = 0.5;         // pixels
 constexpr double kLeastAngle = 1;          // degrees
 constexpr double kLeastHole = 1.0 / 512;   // of coverage
+constexpr double kLeastElevation = 1.05;
 constexpr double kLeastDeviation = 1.0 / 512;
 
 /// An effect that is on where `value` exceeds `least`.
@@ -95,7 +96,7 @@ void add_transport(const Measurements& m, Transport transport, std::vector<Effec
   const double brightest = std::max(m.pilot.direct_radiance, m.pilot.met_radiance);
   rows.push_back(decide("interreflection", "rho phi / (1 - rho phi), phi: share of diffuse rays that meet what reflects, > 0.005",
                         gain, kJustInvisible, gain * brightest, m.pilot.met == 0 ? "95 %" : "heuristic", kMean, "direct light only; nothing is solved"));
-  const bool is_gather = transport == Transport::kGather;
+  const bool is_gather = transport != Transport::kPathTrace;
   const auto specular = static_cast<double>(m.metals + m.glossy + m.mirrors + m.coats + m.sheens + m.volumes + m.rough_transmitters);
   const double per_receiver = static_cast<double>(m.max_reflectance) * std::max(static_cast<double>(m.max_specular), static_cast<double>(m.max_transmission));
   EffectDecision caustics = skip("caustics", "materials that are specular, and lit > 0", specular, times_share(max_radiance(m), per_receiver), "rigorous",
@@ -129,8 +130,19 @@ void add_rest(const Measurements& m, std::vector<EffectDecision>& rows) {
   lost("subsurface", "materials that scatter inside > 0", m.scattering, "diffuse reflection at the surface");
   lost("dispersion", "materials with dispersion > 0", m.dispersive, "one index of refraction for all colours");
   lost("iridescence", "materials with a thin film > 0", m.iridescent, "the layer without its film");
-  rows.push_back(skip("masking", "visual masking by detail", 0, 0, "exact", "the plain threshold: skipping only raises accuracy"));
   rows.push_back(skip("adaptive_sampling", "samples that follow the pixel's variance", 0, 0, "exact", "the same number in every pixel"));
+}
+
+/// Masking only saves work: without it all is more accurate. In the default gather it saves none (docs/effects.md).
+void add_masking(const Measurements& m, Transport transport, std::vector<EffectDecision>& rows) {
+  EffectDecision row = decide("masking", "mean elevation of the visible threshold by detail > 1.05", m.detail_elevation,
+                              kLeastElevation, 0, "exact", kMean, "no detail to mask: the plain threshold");
+  if (transport != Transport::kPaperGather && row.active) {
+    row.active = false;
+    row.note = transport == Transport::kPathTrace ? "paths have no threshold"
+                                                  : "the plain threshold: masking saves nothing with a fixed number of samples";
+  }
+  rows.push_back(std::move(row));
 }
 
 EffectDecision* find(EffectsPlan& plan, std::string_view id) {
@@ -142,7 +154,7 @@ EffectDecision* find(EffectsPlan& plan, std::string_view id) {
 void force_off(EffectDecision& row, const Measurements& m) {
   row.active = false;
   row.note = "forced off by --effects" + (row.note.empty() ? "" : ": " + row.note);
-  if (row.value == 0) return;
+  if (row.value == 0 || effect_of(row.id) == Effect::kMasking) return;
   const double reflected = static_cast<double>(m.max_reflectance);
   if (row.id == "interreflection") {
     row.bound = row.value * likely_radiance(m);
@@ -196,6 +208,7 @@ EffectSet EffectsPlan::off() const {
   EffectSet set = 0;
   for (const EffectDecision& e : effects) {
     const Effect effect = effect_of(e.id);
+    if (effect == Effect::kMasking) continue;
     if (!e.active && effect != Effect::kCount && (e.value > 0 || e.bound > 0 || effect == Effect::kInterreflection)) set |= bit_of(effect);
   }
   return set;
@@ -219,6 +232,7 @@ Result<EffectsPlan> plan_effects(const Measurements& m, Transport transport, std
   add_matter(m, plan.effects);
   add_camera(m, plan.effects);
   add_rest(m, plan.effects);
+  add_masking(m, transport, plan.effects);
   while (!forced.empty()) {
     const std::size_t comma = forced.find(',');
     RADFARM_TRY_STATUS(force(plan, m, forced.substr(0, comma)));

@@ -35,7 +35,7 @@ struct EffectsPlan {
 };
 
 /// Which integrator the plan is for: the path tracer carries what the gather leaves out.
-enum class Transport { kGather, kPathTrace };
+enum class Transport { kGather, kPaperGather, kPathTrace };
 
 /// Decides every effect. `forced` is "+id,-id,..."; an unknown id, or switching on what radfarm cannot simulate, is
 /// INVALID_ARGUMENT. Pure.

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, static_cast<std::size_t>(Effect::kCount)> kIds = {
     "area_lights",    "punctual_lights",      "ies",               "environment", "interreflection", "gloss",
     "clearcoat",      "sheen",                "anisotropy",        "transmission", "panes",          "alpha_cutouts",
-    "reflectance_textures", "emission_textures", "normal_maps",    "depth_of_field"};
+    "reflectance_textures", "emission_textures", "normal_maps",    "depth_of_field", "masking"};
 
 /// A base texture whose alpha still cuts holes keeps it; its colour becomes even.
 void even_out(Scene& scene, Material& m) {

@@ -26,6 +26,7 @@ enum class Effect : std::uint32_t {
   kEmissionTextures,
   kNormalMaps,
   kDepthOfField,
+  kMasking,  // in no set: it steers thresholds, and changes nothing that is true of an image
   kCount
 };
 using EffectSet = std::uint32_t;

@@ -37,8 +37,7 @@ class EyeChain {
       if (!met) return parts_;
       SurfacePoint point = met->point;
       const bool is_pane = surfaces.is_pane(surfaces.scene().instances[hit->instance].mesh);
-      // About as many chains as the diffuse part has rays: else gloss, or what a mirror shows, would be the image's noise.
-      scatter_seen(*hit, point, -ray.direction, met->throughput, panes, is_pane ? 1 : kChains);
+      scatter_seen(*hit, point, -ray.direction, met->throughput, panes, is_pane);
       if (!is_pane) return parts_;
       const float cosine = std::fabs(dot(point.geometric_normal, ray.direction));
       throughput = met->throughput * pane_passage(surfaces.matter(point), cosine);
@@ -71,10 +70,13 @@ class EyeChain {
 
   /// What the camera sees first, or by panes.
   void scatter_seen(const Hit& hit, SurfacePoint& point, const Vec3& to_viewer, const Spectrum& throughput,
-                    std::uint32_t panes, std::uint32_t chains) {
+                    std::uint32_t panes, bool is_pane) {
     const Bsdf bsdf = bsdf_at(context_.world.surfaces, point, to_viewer);
-    gather_here({hit, point, bsdf}, throughput);
+    const Spectrum irradiance = gather_here({hit, point, bsdf}, throughput);
+    if (context_.first != nullptr && !is_pane) *context_.first = first_surface(point, bsdf, irradiance);
     if (!bsdf.has_specular()) return;
+    // About as many chains as the diffuse part has rays: else gloss, or what a mirror shows, would be the image's noise.
+    const std::uint32_t chains = is_pane ? 1 : kChains;
     const Vertex vertex{context_.world, point, bsdf, 1, 1};
     for (std::uint32_t k = 0; k < chains; ++k) {
       follow(vertex, throughput / static_cast<float>(chains),
@@ -82,13 +84,15 @@ class EyeChain {
     }
   }
 
-  /// The diffuse part of what the camera sees first.
-  void gather_here(const SeenPoint& at, const Spectrum& throughput) {
-    if (!at.bsdf.has_diffuse()) return;
+  /// The diffuse part of what the camera sees first; returns its irradiance, lux.
+  Spectrum gather_here(const SeenPoint& at, const Spectrum& throughput) {
+    if (!at.bsdf.has_diffuse()) return {};
     const Arrived irradiance = context_.light.seen(at, sampler_, counters_);
     const Spectrum reflected = throughput * at.bsdf.diffuse_reflectance() * kInversePi;
     parts_.direct += reflected * irradiance.direct;
-    if (context_.has_interreflection) parts_.indirect += reflected * irradiance.indirect;
+    if (!context_.has_interreflection) return irradiance.direct;
+    parts_.indirect += reflected * irradiance.indirect;
+    return irradiance.direct + irradiance.indirect;
   }
 
   /// One chain from a vertex on: its highlights, then the vertices behind.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimate/diffuse_light.h"
+#include "estimate/first_surface.h"
 #include "estimate/radiance_parts.h"
 
 namespace radfarm {
@@ -10,6 +11,7 @@ struct EyeChainContext {
   const World& world;
   const DiffuseLight& light;
   bool has_interreflection = true;  // off: `indirect` is not returned
+  FirstSurface* first = nullptr;    // filled where given, but for what is of the grid
 };
 
 /// sampler.key() of what decides, at holes, which surface the camera sees first.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimate/first_surface.h"
 #include "estimate/gather_context.h"
 #include "estimate/radiance_parts.h"
 
@@ -11,10 +12,10 @@ namespace radfarm {
 /// conforming interpolation and the blend of mixed classifications, continuous from cell to cell. Interpolated senders
 /// add their lobes; of the critical ones `samples_per_gather` are drawn by systematic sampling in proportion to what
 /// they are likely to give the point: the form factor of a patch is exact, its visibility traced. What is nearer than a
-/// grid cell is wide comes by rays (near_light.h), the sky's light by sky_light.h. Punctual lights are always traced.
+/// grid cell is wide comes by rays (reflected_light.h), the sky's light by sky_light.h. Punctual lights are always traced.
 /// What gloss, mirrors and glass show is followed by rays (the eye chain); where they end on diffuse surfaces, which may be
-/// outside the grid, the light is a next event's and the radiosity solution's where one more ray ends.
+/// outside the grid, the light is a next event's and the radiosity solution's where one more ray ends. Fills `first` where given.
 RadianceParts gather_radiance(const GatherContext& context, const Ray& ray, const PixelSampler& sampler,
-                              Counters& counters);
+                              Counters& counters, FirstSurface* first = nullptr);
 
 }  // namespace radfarm

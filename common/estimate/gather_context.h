@@ -7,7 +7,7 @@
 #include "estimate/pixel_sampler.h"
 #include "scene/world.h"
 #include "senders/sender_grid.h"
-#include "senders/sender_lookup.h"
+#include "senders/reflector_lookup.h"
 
 namespace radfarm {
 
@@ -15,7 +15,7 @@ namespace radfarm {
 struct GatherContext {
   const World& world;
   const SenderTree& tree;
-  const SenderLookup& lookup;
+  const ReflectorLookup& lookup;
   const SenderGrid& senders;
   const SenderSettings& settings;
   bool has_interreflection = true;  // effect interreflection; off: `indirect` is neither computed nor returned

@@ -35,9 +35,9 @@ class MeshLight : public DiffuseLight {
 }  // namespace
 
 RadianceParts gouraud_radiance(const GouraudContext& context, const Ray& ray, const PixelSampler& sampler,
-                               Counters& counters) {
+                               Counters& counters, FirstSurface* first) {
   const MeshLight light(context);
-  return trace_eye_chain({context.world, light}, ray, sampler, counters);
+  return trace_eye_chain({context.world, light, true, first}, ray, sampler, counters);
 }
 
 }  // namespace radfarm

@@ -58,8 +58,9 @@ float pixels_to_edge(const TriangleVertices& triangle, const Vec3& position, con
 }
 
 SampleRadiance with_mesh_lines(SampleRadiance radiance, const GouraudContext& context, const Film& film) {
-  return [inner = std::move(radiance), context, film](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
-    RadianceParts parts = inner(ray, sampler, counters);
+  return [inner = std::move(radiance), context, film](const Ray& ray, const PixelSampler& sampler, Counters& counters,
+                                                     FirstSurface* first) {
+    RadianceParts parts = inner(ray, sampler, counters, first);
     ++counters.camera_rays;
     scale(parts, 1 - (1 - kDarkest) * coverage(context, film, ray, sampler.key(kCoverageDimension)));
     return parts;

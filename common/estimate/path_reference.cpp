@@ -20,11 +20,27 @@ float survival(int bounce, const Spectrum& throughput, const Spectrum& weight) {
   return before > 0 ? std::min(kMaxSurvival, luminance(throughput * weight) / before) : 0;
 }
 
-}  // namespace
+/// What of a path's light the first surface's diffuse part reflects: the irradiance there.                (path.4)
+struct FirstReflection {
+  FirstSurface* surface = nullptr;   // none: nobody asks
+  Spectrum throughput;               // of the way from the camera
+  NextEventLight next_event;
+  bool goes_on_specular = false;
 
-RadianceParts trace_path(const World& world, const Ray& camera_ray, const PixelSampler& sampler, Counters& counters,
-                         bool has_interreflection) {
-  RadianceParts parts;
+  void end(const RadianceParts& parts) const {
+    if (surface == nullptr || !surface->is_seen) return;
+    const Spectrum diffuse = goes_on_specular ? throughput * next_event.diffuse
+                                              : parts.reflected() - throughput * next_event.specular;
+    const auto irradiance = [](float reflected, float scale) {
+      return scale > 0 ? std::max(0.0F, kPi * reflected / scale) : 0.0F;
+    };
+    const Spectrum scale = throughput * surface->albedo;
+    surface->irradiance = {irradiance(diffuse.r, scale.r), irradiance(diffuse.g, scale.g), irradiance(diffuse.b, scale.b)};
+  }
+};
+
+void follow_path(const World& world, const Ray& camera_ray, const PixelSampler& sampler, Counters& counters,
+                 bool has_interreflection, RadianceParts& parts, FirstReflection& first) {
   Ray ray = camera_ray;
   Spectrum throughput(1.0F);
   Departure from{ray.origin, ray.direction, 0, true};
@@ -36,15 +52,20 @@ RadianceParts trace_path(const World& world, const Ray& camera_ray, const PixelS
     ++(bounce == 0 ? counters.camera_rays : counters.path_rays);
     if (!hit) {
       part_of_emission(parts, stage) += throughput * passed * weighed_sky(world, from);
-      return parts;
+      return;
     }
     SurfacePoint point = world.surfaces.met(*hit, ray);
     throughput *= hit->weight * world.surfaces.absorption(point, hit->distance);
     part_of_emission(parts, stage) += throughput * weighed_emission(world, from, *hit, point);
-    if (stage == PathStage::kReceiver && !has_interreflection) return parts;
+    if (stage == PathStage::kReceiver && !has_interreflection) return;
 
     const Bsdf bsdf = bsdf_at(world.surfaces, point, -ray.direction);
-    if (is_black(throughput) || !(bsdf.has_diffuse() || bsdf.has_specular())) return parts;
+    const bool is_first = bounce == 0 && first.surface != nullptr;
+    if (is_first) {
+      *first.surface = first_surface(point, bsdf, {});
+      first.throughput = throughput;
+    }
+    if (is_black(throughput) || !(bsdf.has_diffuse() || bsdf.has_specular())) return;
     const Vertex vertex = one_way_vertex(world, point, bsdf);
     const NextEventLight light =
         next_event_light(vertex, sampler.one(dimension), sampler.two(dimension + 1), counters);
@@ -53,13 +74,28 @@ RadianceParts trace_path(const World& world, const Ray& camera_ray, const PixelS
 
     const Continuation next = go_on(vertex, sampler.one(dimension + 4), sampler.two(dimension + 2));
     const float survive = survival(bounce, throughput, next.weight);
-    if (!(survive > 0) || is_black(next.weight)) return parts;
-    if (survive < 1 && sampler.one(dimension + 3) >= survive) return parts;
+    if (is_first) {
+      first.next_event = light;
+      first.goes_on_specular = next.is_specular;
+    }
+    if (!(survive > 0) || is_black(next.weight)) return;
+    if (survive < 1 && sampler.one(dimension + 3) >= survive) return;
     throughput *= next.weight / survive;
     stage = stage_after(stage, next.is_specular);
     ray = next.ray;
     from = next.departure;
   }
+}
+
+}  // namespace
+
+RadianceParts trace_path(const World& world, const Ray& camera_ray, const PixelSampler& sampler, Counters& counters,
+                         bool has_interreflection, FirstSurface* first) {
+  RadianceParts parts;
+  FirstReflection reflection{first, {}, {}, false};
+  follow_path(world, camera_ray, sampler, counters, has_interreflection, parts, reflection);
+  reflection.end(parts);
+  return parts;
 }
 
 }  // namespace radfarm

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimate/counters.h"
+#include "estimate/first_surface.h"
 #include "estimate/pixel_sampler.h"
 #include "estimate/radiance_parts.h"
 #include "scene/world.h"
@@ -17,7 +18,8 @@ namespace radfarm {
 /// A ray with a cone sees textures filtered, which is not quite unbiased (docs/materials.md); the audit's rays are lines.
 /// Requires: `ray` unit. Cost: about 2 rays a bounce.
 /// Without `has_interreflection`, `indirect` and light that comes to the receiver by specular surfaces are left out.
+/// Fills `first` where given; the irradiance is what one path brings, so it is noisy where albedo is small, and 0 where that is.
 RadianceParts trace_path(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters,
-                         bool has_interreflection = true);
+                         bool has_interreflection = true, FirstSurface* first = nullptr);
 
 }  // namespace radfarm

@@ -6,6 +6,12 @@
 
 namespace radfarm {
 
+/// Whether a sample is light: finite and not negative.
+inline bool is_light(const RadianceParts& parts) {
+  const auto is_light = [](const Spectrum& s) { return is_finite(s) && min_component(s) >= 0; };
+  return is_light(parts.emission) && is_light(parts.direct) && is_light(parts.indirect) && is_light(parts.specular);
+}
+
 /// Resumable sums of one pixel: adding more samples later continues them. Stored as it is (docs/formats.md).
 struct PixelSums {
   SpectrumD emission;
@@ -17,20 +23,26 @@ struct PixelSums {
   std::uint32_t dropped = 0;     // not finite or negative: in no sum, never painted black
 
   void add(const RadianceParts& parts) {
-    const double luminous = luminance(SpectrumD(parts.reflected()));
-    const auto is_light = [](const Spectrum& s) { return is_finite(s) && min_component(s) >= 0; };
-    const bool is_valid = is_light(parts.emission) && is_light(parts.direct) && is_light(parts.indirect) &&
-                          is_light(parts.specular);
-    if (!is_valid) {
+    if (!is_light(parts)) {
       ++dropped;
       return;
     }
+    const double luminous = luminance(SpectrumD(parts.reflected()));
     emission += SpectrumD(parts.emission);
     direct += SpectrumD(parts.direct);
     indirect += SpectrumD(parts.indirect);
     specular += SpectrumD(parts.specular);
     squared_luminance += luminous * luminous;
     ++samples;
+  }
+  void add(const PixelSums& more) {
+    emission += more.emission;
+    direct += more.direct;
+    indirect += more.indirect;
+    specular += more.specular;
+    squared_luminance += more.squared_luminance;
+    samples += more.samples;
+    dropped += more.dropped;
   }
   SpectrumD reflected() const { return direct + indirect + specular; }
   friend bool operator==(const PixelSums&, const PixelSums&) = default;

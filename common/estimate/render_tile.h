@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "estimate/aov_sums.h"
 #include "estimate/counters.h"
 #include "estimate/pixel_sampler.h"
 #include "estimate/pixel_sums.h"
@@ -19,8 +20,8 @@ struct PixelRect {
   friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
-/// One sample of the radiance along a camera ray: what an integrator is to the farm.
-using SampleRadiance = std::function<RadianceParts(const Ray&, const PixelSampler&, Counters&)>;
+/// One sample of the radiance along a camera ray: what an integrator is to the farm. Fills the last argument where it is given.
+using SampleRadiance = std::function<RadianceParts(const Ray&, const PixelSampler&, Counters&, FirstSurface*)>;
 
 /// A film and the random numbers that fall on it.
 struct Film {
@@ -31,12 +32,22 @@ struct Film {
   std::uint32_t cone_samples = 0;  // of a pixel, that share it as cones (pixel_cone); 0: rays are lines, no texture is filtered
 };
 
-/// Samples [first, first + count) of one pixel, by a box filter of one pixel. The same bits in any tile or pass.
+/// Samples [first, first + count) of one pixel, by a box filter of one pixel. The same bits in any tile or pass. Adds to `aovs`
+/// where it is given.
 PixelSums sample_pixel(const Film& film, Stream stream, int x, int y, std::uint32_t first, std::uint32_t count,
-                       const SampleRadiance& radiance, Counters& counters);
+                       const SampleRadiance& radiance, Counters& counters, AovSums* aovs = nullptr);
 
-/// sample_pixel for every pixel of a tile, row by row.
-std::vector<PixelSums> render_tile(const Film& film, const PixelRect& rect, std::uint32_t samples,
-                                   const SampleRadiance& radiance, Counters& counters);
+/// How many samples pixels get.                                                              docs/pipeline.md (pixels.1)
+struct SampleBudget {
+  std::uint32_t first = 1;  // each pixel
+  std::uint32_t most = 1;   // any pixel
+  float noise = 0;          // cd/m^2: a pixel whose samples scatter by s gets s / noise; 0: `first`
+};
+
+/// sample_pixel for every pixel of a tile, row by row. How many samples a pixel gets is decided by those of its eight
+/// neighbours, and not by its own: which samples a mean has must not depend on them, or it is biased towards what rare ones
+/// lack. Neighbours beyond the tile's border are sampled as well, to the same bits as in their own tile. Fills `aovs`, one a pixel, where it is given.
+std::vector<PixelSums> render_tile(const Film& film, const PixelRect& rect, const SampleBudget& budget,
+                                   const SampleRadiance& radiance, Counters& counters, std::vector<AovSums>* aovs = nullptr);
 
 }  // namespace radfarm

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "estimate/aov.h"
 #include "radiosity/settings.h"
 #include "senders/settings.h"
 
@@ -16,7 +17,10 @@ struct Settings {
   std::int32_t height = 0;
   std::int32_t tile = 32;                // pixels a side; decides the cutting, never the image
   std::uint64_t seed = 1;
-  std::uint32_t camera_samples = 16;     // a pixel
+  AovSet aovs = 0;                       // written besides the light; never change it
+  std::uint32_t camera_samples = 16;     // a pixel, at first
+  std::uint32_t max_camera_samples = 16; // a pixel; at least camera_samples
+  float noise = 0;                       // cd/m^2: a pixel whose samples scatter by s gets s / noise; 0: all get camera_samples
   std::uint32_t audit_pixels = 0;        // 0: no audit
   std::uint32_t audit_samples = 0;       // paths of each of the two estimates of an audited pixel
   std::uint32_t effects_off = 0;         // EffectSet: the image is rendered without these ...
@@ -25,6 +29,6 @@ struct Settings {
   RadiositySettings radiosity;
   SenderSettings senders;
 };
-static_assert(sizeof(Settings) == 48 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
+static_assert(sizeof(Settings) == 60 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
 
 }  // namespace radfarm

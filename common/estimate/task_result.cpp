@@ -5,7 +5,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 }  // namespace
 
@@ -13,6 +13,7 @@ std::vector<std::byte> encode(const TileResult& result) {
   FlatFileWriter file("tile", kVersion);
   file.add_value("rect", result.rect);
   file.add("pixels", result.pixels);
+  file.add("aovs", result.aovs);
   file.add_value("counters", result.counters);
   return file.finish();
 }
@@ -29,12 +30,16 @@ Result<TileResult> decode_tile_result(std::span<const std::byte> bytes) {
   TileResult result;
   RADFARM_TRY(result.rect, file.get_value<PixelRect>("rect"));
   RADFARM_TRY(result.pixels, file.copy<PixelSums>("pixels"));
+  RADFARM_TRY(result.aovs, file.copy<AovSums>("aovs"));
   RADFARM_TRY(result.counters, file.get_value<Counters>("counters"));
   const PixelRect& rect = result.rect;
   const bool is_inside = rect.x0 >= 0 && rect.y0 >= 0 && rect.x1 > rect.x0 && rect.y1 > rect.y0 &&
                          rect.x1 <= 1 << 20 && rect.y1 <= 1 << 20;
   if (!is_inside || result.pixels.size() != static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height())) {
     return fail(Code::kDataLoss, "tile result: its rectangle and its pixels do not agree");
+  }
+  if (!result.aovs.empty() && result.aovs.size() != result.pixels.size()) {
+    return fail(Code::kDataLoss, "tile result: its pixels and their AOVs do not agree");
   }
   return result;
 }

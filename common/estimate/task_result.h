@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/status.h"
+#include "estimate/aov_sums.h"
 #include "estimate/counters.h"
 #include "estimate/pixel_sums.h"
 #include "estimate/render_tile.h"
@@ -15,6 +16,7 @@ namespace radfarm {
 struct TileResult {
   PixelRect rect;
   std::vector<PixelSums> pixels;  // row by row
+  std::vector<AovSums> aovs;      // the same, or empty: nobody asked
   Counters counters;
   friend bool operator==(const TileResult&, const TileResult&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "frame/aov_layers.h"
 #include "frame/tasks.h"
 
 namespace radfarm {
@@ -26,11 +27,16 @@ Result<Raster> assemble(const Settings& settings, std::span<const TileResult> ti
   Raster raster;
   const auto width = static_cast<std::size_t>(settings.width);
   raster.pixels.resize(width * static_cast<std::size_t>(settings.height));
+  const bool has_aovs = settings.aovs != 0;
+  if (has_aovs) raster.aovs.resize(raster.pixels.size());
   std::vector<bool> filled(raster.pixels.size());
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < tiles.size(); ++i) {
     const TileResult& tile = tiles[i];
     if (tile.rect != tile_rect(settings, i)) return fail(Code::kDataLoss, "tile " + std::to_string(i) + " is misplaced");
+    if (has_aovs && tile.aovs.size() != tile.pixels.size()) {
+      return fail(Code::kDataLoss, "tile " + std::to_string(i) + " has no AOVs");
+    }
     raster.counters += tile.counters;
     std::size_t next = 0;
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y) {
@@ -38,6 +44,7 @@ Result<Raster> assemble(const Settings& settings, std::span<const TileResult> ti
         const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
         if (filled[pixel]) return fail(Code::kDataLoss, "tile " + std::to_string(i) + " covers another");
         filled[pixel] = true;
+        if (has_aovs) raster.aovs[pixel] = tile.aovs[next];
         raster.pixels[pixel] = tile.pixels[next++];
         ++count;
       }
@@ -64,6 +71,7 @@ Image to_image(const Settings& settings, const Raster& raster) {
     image.channels[prefix + "G"] = std::move(g);
     image.channels[prefix + "B"] = std::move(b);
   }
+  if (settings.aovs != 0) add_aov_layers(settings.aovs, raster, image);
   return image;
 }
 

@@ -14,12 +14,14 @@ namespace radfarm {
 struct Raster {
   std::vector<PixelSums> pixels;
   Counters counters;
+  std::vector<AovSums> aovs = {};  // the same, or empty: nobody asked
 };
 
-/// Puts tiles together. DATA_LOSS when a pixel is missing or given twice.
+/// Puts tiles together. DATA_LOSS when a pixel is missing or given twice, or its AOVs are missing.
 Result<Raster> assemble(const Settings& settings, std::span<const TileResult> tiles);
 
-/// The layers of DESIGN section 9: beauty at the root, emission, direct, indirect, specular (zero until photon paths).
+/// The layers of DESIGN section 9: beauty at the root, emission, direct, indirect, specular (zero until photon paths), and the
+/// AOVs that the settings name.
 /// A pixel without any kept sample is an error of its job, found by dropped_share(), and NaN here: never a silent black.
 Image to_image(const Settings& settings, const Raster& raster);
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frame/aovs.h"
 #include "frame/request.h"
 
 namespace radfarm {
@@ -69,9 +70,12 @@ json to_json(const Settings& s) {
               {"tile", s.tile},
               {"seed", s.seed},
               {"camera_samples", s.camera_samples},
+              {"max_camera_samples", s.max_camera_samples},
+              {"noise", s.noise},
               {"audit_pixels", s.audit_pixels},
               {"audit_samples", s.audit_samples},
               {"effects_off", s.effects_off}};
+  if (s.aovs != 0) out["aov"] = aov_names(s.aovs);
   if (s.integrator == Settings::Integrator::kPathTrace) return out;
   out["radiosity"] = {{"oracle", to_string(s.radiosity.oracle.criterion)},
                       {"max_link_error", s.radiosity.max_link_error},
@@ -87,10 +91,17 @@ json to_json(const Settings& s) {
     return out;
   }
   out["senders"] = {{"threshold", s.senders.threshold},
+                    {"threshold_scale", s.senders.threshold_scale},
+                    {"max_elevation", s.senders.max_elevation},
                     {"grid", {s.senders.columns, s.senders.rows, s.senders.slices}},
                     {"max_senders", s.senders.max_senders},
                     {"vertex_samples", s.senders.vertex_samples},
-                    {"samples_per_gather", s.senders.samples_per_gather}};
+                    {"samples_per_gather", s.senders.samples_per_gather},
+                    {"sky_lines", s.senders.sky_lines},
+                    {"reflected_rays", s.senders.reflected_rays},
+                    {"next_events", s.senders.next_events},
+                    {"gather", s.senders.gather == Gather::kPaper ? "paper" : "default"}};
+  if (s.senders.gather == Gather::kPaper) out["senders"]["paper_samples"] = s.senders.paper_samples;
   return out;
 }
 

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frame/aovs.h"
+
 namespace radfarm {
 namespace {
 
@@ -44,6 +46,7 @@ constexpr std::array kQualities = {
 };
 constexpr std::array kOracles = {Name<Oracle>{Oracle::kKs, "KS"}, Name<Oracle>{Oracle::kKl, "KL"}, Name<Oracle>{Oracle::kCs, "CS"},
                                  Name<Oracle>{Oracle::kHe, "HE"}, Name<Oracle>{Oracle::kVar, "VAR"}};
+constexpr std::array kGathers = {Name<Gather>{Gather::kDefault, "default"}, Name<Gather>{Gather::kPaper, "paper"}};
 constexpr std::array kUpAxes = {Name<UpAxis>{UpAxis::kY, "Y"}, Name<UpAxis>{UpAxis::kZ, "Z"}};
 
 template <typename T, std::size_t N>
@@ -185,6 +188,12 @@ Status read(const Json& json, std::string_view key, Vec3d& out) {
   return read(json[2], key, out.z);
 }
 
+Status read(const Json& json, std::string_view key, std::vector<std::string>& out) {
+  if (!json.is_array()) return wrong_type(key, "an array of names");
+  for (const Json& name : json) RADFARM_TRY_STATUS(read(name, key, out.emplace_back()));
+  return {};
+}
+
 Status read(const Json& json, std::string_view key, Integrator& out) {
   std::string text;
   RADFARM_TRY_STATUS(read(json, key, text));
@@ -196,6 +205,13 @@ Status read(const Json& json, std::string_view key, Quality& out) {
   std::string text;
   RADFARM_TRY_STATUS(read(json, key, text));
   RADFARM_TRY(out, quality_from_string(text));
+  return {};
+}
+
+Status read(const Json& json, std::string_view key, Gather& out) {
+  std::string text;
+  RADFARM_TRY_STATUS(read(json, key, text));
+  RADFARM_TRY(out, gather_from_string(text));
   return {};
 }
 
@@ -258,6 +274,7 @@ Status read(const Json& json, std::string_view key, std::variant<NamedCamera, Pl
 
 Status read_member(const std::string& key, const Json& value, RenderRequest& request) {
   if (key == "integrator") return read(value, key, request.integrator);
+  if (key == "gather") return read(value, key, request.gather);
   if (key == "quality") return read(value, key, request.quality);
   if (key == "camera") return read(value, key, request.camera);
   if (key == "width") return read(value, key, request.width);
@@ -271,6 +288,7 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
   if (key == "oracle") return read(value, key, request.oracle);
   if (key == "audit") return read(value, key, request.audit);
   if (key == "mesh") return read(value, key, request.mesh);
+  if (key == "aov") return read(value, key, request.aov);
   if (key == "effects") return read(value, key, request.effects);
   if (key == "env") return read(value, key, request.env);
   if (key == "ies") return read(value, key, request.ies);
@@ -299,11 +317,16 @@ Status validate(const RenderRequest& request) {
   if (request.focus_distance && !(*request.focus_distance > 0 && *request.focus_distance <= 1e18F)) {
     return invalid("--focus-distance is " + std::to_string(*request.focus_distance) + " m, must be positive and finite");
   }
+  const bool is_gather = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity;
+  if (request.gather == Gather::kPaper && !is_gather) {
+    return invalid("--gather paper is a way to gather: it needs --integrator auto, gather or full-gather");
+  }
   if (request.mesh && request.integrator != Integrator::kRadiosity) {
     return invalid("--mesh draws the elements of the radiosity solution: it needs --integrator radiosity");
   }
   if (request.env.size() > kMaxText) return invalid("--env: is longer than " + std::to_string(kMaxText) + " bytes");
   if (request.ies.size() > kMaxIes) return invalid("--ies: more than " + std::to_string(kMaxIes) + " files");
+  RADFARM_TRY([[maybe_unused]] const AovSet aovs, requested_aovs(request));
   return check_effects(request.effects);
 }
 
@@ -317,7 +340,9 @@ nlohmann::json to_json(const RenderRequest& request) {
                {"audit", request.audit},
                {"effects", request.effects},
                {"env", request.env}};
+  if (request.gather != Gather::kDefault) json["gather"] = to_string(request.gather);
   if (request.mesh) json["mesh"] = true;
+  if (!request.aov.empty()) json["aov"] = request.aov;
   if (!request.ies.empty()) json["ies"] = request.ies;
   if (request.lens_diameter) json["lens_diameter"] = *request.lens_diameter;
   if (request.focus_distance) json["focus_distance"] = *request.focus_distance;
@@ -344,6 +369,10 @@ Result<Integrator> integrator_from_string(std::string_view name) { return value_
 std::string to_string(Quality quality) { return name_of(kQualities, quality); }
 
 Result<Quality> quality_from_string(std::string_view name) { return value_of(kQualities, "quality", name); }
+
+std::string to_string(Gather gather) { return name_of(kGathers, gather); }
+
+Result<Gather> gather_from_string(std::string_view name) { return value_of(kGathers, "gather", name); }
 
 std::string to_string(Oracle oracle) { return name_of(kOracles, oracle); }
 

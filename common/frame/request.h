@@ -5,12 +5,14 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/status.h"
 #include "math/vec.h"
 #include "radiosity/oracles.h"
+#include "senders/settings.h"
 
 namespace radfarm {
 
@@ -34,6 +36,7 @@ struct RenderRequest {
   };
 
   Integrator integrator = Integrator::kAuto;
+  Gather gather = Gather::kDefault;       // the final gather as built here, or as paper 1 has it
   Quality quality = Quality::kStandard;
   std::variant<NamedCamera, PlacedCamera> camera;
   std::optional<int> width, height;       // pixels, 1 to 16384; by default 640 wide at the camera's aspect
@@ -50,6 +53,7 @@ struct RenderRequest {
   std::map<std::string, std::string> ies;  // light or node name -> IES file beside the scene file
   std::optional<float> lens_diameter;     // metres; default: the camera's, which is 0
   std::optional<float> focus_distance;    // metres; default: the camera's, or the distance to --look-at
+  std::vector<std::string> aov;           // layers besides light, by name, or "all" (frame/aovs.h)
   std::string effects;                    // "+id,-id": forces effects on or off
 
   friend bool operator==(const RenderRequest&, const RenderRequest&) = default;
@@ -66,6 +70,8 @@ std::string to_string(RenderRequest::Integrator integrator);                    
 Result<RenderRequest::Integrator> integrator_from_string(std::string_view name);  // lists the names when wrong
 std::string to_string(RenderRequest::Quality quality);
 Result<RenderRequest::Quality> quality_from_string(std::string_view name);
+std::string to_string(Gather gather);                                             // "paper"
+Result<Gather> gather_from_string(std::string_view name);
 std::string to_string(Oracle oracle);                                             // "KL"
 Result<Oracle> oracle_from_string(std::string_view name);
 

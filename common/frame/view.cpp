@@ -1,11 +1,13 @@
 #include "frame/view.h"
 
+#include <array>
+
 #include "base/flat_file.h"
 
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 7;
 
 /// Camera without its name: a fixed layout.
 struct StoredCamera {
@@ -16,7 +18,18 @@ struct StoredCamera {
 
 bool is_sane(const Settings& s) {
   const auto side = [](std::int32_t n) { return n >= 1 && n <= 16384; };
-  return side(s.width) && side(s.height) && side(s.tile) && s.camera_samples >= 1;
+  return side(s.width) && side(s.height) && side(s.tile) && s.camera_samples >= 1 && s.aovs >> kAovCount == 0;
+}
+
+Result<LuminanceImage> get_elevation(const FlatFileReader& file) {
+  using Size = std::array<std::int32_t, 2>;
+  RADFARM_TRY(const Size size, file.get_value<Size>("elevation.size"));
+  LuminanceImage image{size[0], size[1], {}};
+  RADFARM_TRY(image.values, file.copy<float>("elevation"));
+  const bool fits = size[0] >= 0 && size[1] >= 0 && size[0] <= 16384 && size[1] <= 16384 &&
+                    image.values.size() == static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
+  if (!fits) return fail(Code::kDataLoss, "view: its elevation is not of its size");
+  return image;
 }
 
 }  // namespace
@@ -29,6 +42,8 @@ std::vector<std::byte> encode(const View& view) {
   file.add_value("settings", view.settings);
   file.add_text("facts", view.facts);
   file.add("grid", view.grid);
+  file.add_value("elevation.size", std::array<std::int32_t, 2>{view.elevation.width, view.elevation.height});
+  file.add("elevation", view.elevation.values);
   return file.finish();
 }
 
@@ -41,7 +56,8 @@ Result<View> decode_view(std::span<const std::byte> bytes) {
   RADFARM_TRY(view.settings, file.get_value<Settings>("settings"));
   RADFARM_TRY(view.facts, file.get_text("facts"));
   RADFARM_TRY(view.grid, file.copy<std::byte>("grid"));
-  if (!is_sane(view.settings)) return fail(Code::kDataLoss, "view: its image size is out of range");
+  RADFARM_TRY(view.elevation, get_elevation(file));
+  if (!is_sane(view.settings)) return fail(Code::kDataLoss, "view: its image size or its AOVs are out of range");
   return view;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/status.h"
 #include "estimate/settings.h"
+#include "image/visibility_threshold.h"
 #include "scene/scene.h"
 
 namespace radfarm {
@@ -17,6 +18,7 @@ struct View {
   Settings settings;
   std::string facts;         // JSON text: scene, effects, stages, counts and energy so far (docs/formats.md)
   std::vector<std::byte> grid;  // flat file of kind "grid"; empty when the integrator has none
+  LuminanceImage elevation;     // of the visible threshold by detail, over the film, blocks of pixels each; empty without masking
 };
 
 /// Flat file of kind "view". Hostile bytes give DATA_LOSS.

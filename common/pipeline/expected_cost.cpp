@@ -15,6 +15,8 @@ constexpr double kTimesRays = 1.75;
 // chosen to hold cornell and office, no more.
 constexpr double kLowPerTriangle = 2e-5, kHighPerTriangle = 4e-4;
 constexpr double kSenders = 3;
+// Corners and what is added at borders [1].
+constexpr double kPaperSamplesPerPixel = 2.5;
 
 struct PilotCost {
   double sample_seconds = 0;
@@ -23,7 +25,7 @@ struct PilotCost {
 
 PilotCost trace_pilot(const World& world, const Film& film) {
   Counters counters;
-  const SampleRadiance path = [&](const Ray& ray, const PixelSampler& sampler, Counters& c) {
+  const SampleRadiance path = [&](const Ray& ray, const PixelSampler& sampler, Counters& c, FirstSurface*) {
     return trace_path(world, ray, sampler, c);
   };
   const Stopwatch watch;
@@ -60,7 +62,11 @@ ExpectedCost expect_cost(const World& world, const Camera& camera, const Setting
     cost.high = 10 * samples * pilot.ray_seconds + kHighPerTriangle * triangles + cost.audit;
     return cost;
   }
-  const double gather = samples * static_cast<double>(settings.senders.samples_per_gather) * kTimesRays * pilot.ray_seconds;
+  const bool is_paper = settings.senders.gather == Gather::kPaper;
+  const double paper_rays = kPaperSamplesPerPixel * settings.width * settings.height *
+                            static_cast<double>(settings.senders.paper_samples);
+  const double rays = is_paper ? paper_rays : samples * static_cast<double>(settings.senders.samples_per_gather);
+  const double gather = rays * kTimesRays * pilot.ray_seconds;
   cost.low = 0.6 * gather + kLowPerTriangle * triangles + 0.5 * kSenders + cost.audit;
   cost.high = 1.7 * gather + kHighPerTriangle * triangles + 3 * kSenders + cost.audit;
   return cost;

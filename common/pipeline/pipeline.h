@@ -35,7 +35,7 @@ struct PreparedFiles {
 /// What prepare() may use besides scene and request. None of it changes a bit of scene, solution and image.
 struct PrepareContext {
   SolutionStore solutions;  // light that was solved before is not solved again; keeps nothing by default
-  Progress progress;        // phases: load, acceleration, effects, radiosity and its parts, senders
+  Progress progress;        // phases: load, acceleration, effects, radiosity, senders, and the parts of each
 };
 
 /// Loads and validates a scene, plans its effects, solves radiosity, classifies senders for one view.

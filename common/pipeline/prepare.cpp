@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "effects/measure.h"
 #include "effects/plan.h"
+#include "frame/aovs.h"
 #include "frame/view.h"
 #include "pipeline/expected_cost.h"
 #include "pipeline/pipeline.h"
@@ -136,6 +137,8 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   Planned planned;
   progress.report("load");
   RADFARM_TRY(Scene scene, load_scene(scene_file, load_options(request)));
+  RADFARM_TRY_STATUS(progress.check());
+  progress.report("load: light");
   RADFARM_TRY_STATUS(light_scene({request.env, request.ies}, scene_file.parent_path(), scene));
   planned.scene_bytes = encode_scene(scene);
   clock.end_stage("load");
@@ -147,12 +150,14 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   progress.report("effects");
   RADFARM_TRY(planned.camera, choose_camera(planned.world->scene, request));
   planned.settings = resolve_settings(request, planned.camera.camera);
+  RADFARM_TRY(planned.settings.aovs, requested_aovs(request));
   const ViewSize size{planned.camera.camera, planned.settings.width, planned.settings.height};
-  planned.measurements = measure(*planned.world, size, request.seed);
+  planned.measurements = measure(*planned.world, size, request.seed, progress);
+  RADFARM_TRY_STATUS(progress.check());
   RADFARM_TRY_STATUS(check_light(*planned.world, planned.measurements));
   const bool is_path = planned.settings.integrator == Settings::Integrator::kPathTrace;
-  RADFARM_TRY(planned.plan, plan_effects(planned.measurements, is_path ? Transport::kPathTrace : Transport::kGather,
-                                         request.effects));
+  const Transport gather = request.gather == Gather::kPaper ? Transport::kPaperGather : Transport::kGather;
+  RADFARM_TRY(planned.plan, plan_effects(planned.measurements, is_path ? Transport::kPathTrace : gather, request.effects));
   planned.settings.effects_off = planned.plan.off();
   planned.settings.exactly_off = planned.plan.exactly_off();
   planned.unaudited = unaudited(planned.measurements);
@@ -193,20 +198,37 @@ Result<SolvedLight> obtain_light(const World& world, const RenderRequest& reques
   return std::move(obtained.light);
 }
 
+/// Without interreflection nothing is solved that a pilot image could show.
+void resolve_thresholds(const Planned& planned, float mean_radiance, SenderSettings& senders) {
+  if (!(senders.threshold_scale > 0)) return;
+  senders.threshold = grey_threshold(senders.threshold_scale, mean_radiance);
+  if (!planned.plan.is_active("interreflection")) senders.threshold_scale = 0;
+  senders.max_elevation = planned.plan.is_active("masking") ? kMaxElevation : 1;
+}
+
+/// `masking_bound`: so much more than without masking may all that is interpolated at a point be wrong, mean over visible points.
+json perception_json(const VertexThresholds& perception, const SenderSettings& senders) {
+  const double elevation = mean_of(perception.elevation);
+  return {{"mean_threshold", perception.mean}, {"mean_threshold_without_masking", perception.mean_plain},
+          {"exposure_ev", perception.exposure_ev}, {"display_white", kDisplayWhite}, {"max_elevation", senders.max_elevation},
+          {"mean_elevation", elevation > 0 ? json(elevation) : json()},
+          {"masking_bound", kMaxTail * (perception.mean - perception.mean_plain)}};
+}
+
 /// Senders and grid of a view that gathers.
-Status prepare_gather(const World& world, const SolvedLight& light, const RenderRequest& request,
-                      const PrepareContext& context, StageClock& clock, Planned& planned, View& view) {
+Status prepare_gather(const World& world, const SolvedLight& light, const RenderRequest& request, const PrepareContext& context,
+                      StageClock& clock, Planned& planned, View& view) {
   RADFARM_TRY(const SenderTree tree, decode_sender_tree(light.file));
   Settings& settings = view.settings;
-  const bool is_full = request.integrator == RenderRequest::Integrator::kFullGather;
-  if (is_full) settings.senders.threshold = 0;
-  if (!is_full && !request.threshold) {
-    settings.senders.threshold = threshold_share(request.quality) * static_cast<float>(light.facts.mean_radiance);
-  }
-  const SenderGridFile grid = classify_visible(world, tree, view.camera, settings.width, settings.height,
-                                               settings.senders, settings.seed, context.progress);
+  settings.noise = noise_share(request) * static_cast<float>(light.facts.mean_radiance);
+  resolve_thresholds(planned, static_cast<float>(light.facts.mean_radiance), settings.senders);
+  ClassifiedView classified = classify_visible(world, tree, view.camera, settings.width, settings.height, settings.senders,
+                                               settings.seed, context.progress);
   RADFARM_TRY_STATUS(context.progress.check());
+  const SenderGridFile& grid = classified.file;
   view.grid = encode(grid);
+  planned.facts["perception"] = perception_json(classified.perception, settings.senders);
+  if (settings.senders.max_elevation > 1) view.elevation = std::move(classified.perception.elevation);
   planned.facts["counts"]["grid_vertices"] = grid.grid.vertex_count();
   planned.facts["counts"]["grid_vertices_used"] = grid.vertices.size();
   clock.end_stage("senders");
@@ -221,7 +243,8 @@ Status prepare_light(const RenderRequest& request, const PrepareContext& context
   if (changes_scene(off)) specialised.emplace(specialise(planned.world->scene, off));
   const World& world = specialised ? *specialised : *planned.world;
   const bool is_shown = view.settings.integrator == Settings::Integrator::kRadiosity;
-  const LightForm form = is_shown ? LightForm::kElements : LightForm::kSenders;
+  const bool needs_all = request.integrator == RenderRequest::Integrator::kFullGather || request.gather == Gather::kPaper;
+  const LightForm form = is_shown ? LightForm::kElements : (needs_all ? LightForm::kAllSenders : LightForm::kSenders);
   RADFARM_TRY(SolvedLight light, obtain_light(world, request, context, form, planned));
   clock.end_stage("radiosity");
   if (!is_shown) RADFARM_TRY_STATUS(prepare_gather(world, light, request, context, clock, planned, view));
@@ -236,7 +259,7 @@ Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const Ren
   StageClock clock;
   RADFARM_TRY(Planned planned, plan(scene_file, request, context.progress, clock));
   PreparedFiles files;
-  View view{planned.camera.camera, planned.settings, "", {}};
+  View view{planned.camera.camera, planned.settings, "", {}, {}};
   if (view.settings.integrator != Settings::Integrator::kPathTrace) {
     RADFARM_TRY_STATUS(prepare_light(request, context, clock, planned, view, files));
   }
@@ -255,6 +278,7 @@ Result<Baked> bake(const std::filesystem::path& scene_file, const RenderRequest&
   const World world(specialise(planned.world->scene, planned.settings.effects_off));
   RADFARM_TRY(const SolvedLight light, obtain_light(world, request, context, LightForm::kElements, planned));
   RADFARM_TRY(const ElementMesh mesh, decode_element_mesh(light.file, SideNumbers(world.scene).count));
+  context.progress.report("glTF");
   Baked baked;
   baked.exposure_ev = exposure_ev ? *exposure_ev : auto_exposure(world, mesh);
   const BakedScene scene = bake_mesh(world, mesh, baked.exposure_ev);

@@ -9,7 +9,7 @@
 #include "radiosity/element_mesh.h"
 #include "scene/world.h"
 #include "senders/sender_grid.h"
-#include "senders/sender_lookup.h"
+#include "senders/reflector_lookup.h"
 
 namespace radfarm {
 
@@ -24,7 +24,7 @@ struct Prepared::Parts {
   const View view;
   const World world;                  // without the effects that are off
   const SenderTree tree;              // empty unless the integrator gathers
-  std::optional<SenderLookup> lookup;
+  std::optional<ReflectorLookup> lookup;
   std::optional<SenderGrid> senders;
   std::optional<ElementMesh> mesh;    // of the integrator radiosity
   std::optional<SideNumbers> sides;   // with it
@@ -32,6 +32,8 @@ struct Prepared::Parts {
   /// With all effects but those that change nothing: made when an audit task first asks; the same world where it can be.
   const World& audited() const;
   bool has_interreflection() const { return !contains(view.settings.effects_off, Effect::kInterreflection); }
+
+  bool is_paper() const { return senders && view.settings.senders.gather == Gather::kPaper; }
 
   const Scene scene;                  // as loaded; empty where `world` is all that is needed
   mutable std::once_flag is_audited;

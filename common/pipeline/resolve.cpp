@@ -4,11 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "image/visibility_threshold.h"
 #include "scene/camera.h"
 
 namespace radfarm {
 namespace {
 
+// The paper samples all critical senders of a point where ours draws from them: some 150 rays a pixel [1, fig. 6].
+constexpr float kPaperSamples = 12;
 constexpr int kDefaultWidth = 640;
 constexpr double kDefaultAspect = 16.0 / 9.0;
 
@@ -25,15 +28,22 @@ struct QualityRow {
   std::uint32_t max_senders;
   std::uint32_t vertex_samples;
   float samples_per_gather;
-  float threshold_share;
+  std::uint32_t reflected_rays;
+  std::uint32_t next_events;
+  float full_lines;  // samples_per_gather where all that reflects is a sender
+  float threshold_scale;
+  float noise_share;  // of the scene's mean radiance
 };
 
 constexpr QualityRow kQuality[] = {
-    {16, 4, 512, 32, 1e-4F, 1, 2, 16, 200, 600, 8, .04F},
-    {64, 16, 1024, 64, 2e-5F, 2, 4, 24, 400, 1200, 12, .02F},
-    {256, 64, 2048, 128, 1e-5F, 4, 8, 32, 800, 2400, 16, .01F},
-    {1024, 256, 4096, 256, 5e-6F, 8, 16, 48, 1600, 4800, 24, .004F},
+    {16, 4, 512, 32, 1e-4F, 1, 2, 16, 200, 600, 2, 2, 0, 8, .5F, .05F},
+    {64, 16, 1024, 64, 2e-5F, 2, 4, 24, 400, 1200, 2, 2, 0, 12, .25F, .02F},
+    {256, 32, 2048, 128, 1e-5F, 4, 8, 32, 800, 2400, 2, 2, 1, 16, .125F, .004F},
+    {1024, 64, 4096, 256, 5e-6F, 8, 16, 48, 1600, 4800, 2, 2, 1, 24, .05F, .0008F},
 };
+
+// Times its first samples, of one pixel.
+constexpr std::uint32_t kMostSamples = 16;
 
 void resolve_size(const RenderRequest& request, const Camera& camera, Settings& settings) {
   const double aspect = camera.aspect > 0 ? static_cast<double>(camera.aspect) : kDefaultAspect;
@@ -86,8 +96,13 @@ Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& requ
   return with_lens(std::move(camera), false, request);
 }
 
-float threshold_share(RenderRequest::Quality quality) {
-  return kQuality[static_cast<std::size_t>(quality)].threshold_share;
+float grey_threshold(float scale, float mean_radiance) {
+  const double grey = 0.18 * kDisplayWhite;
+  return static_cast<float>(static_cast<double>(scale) * visible_difference(grey) / grey * static_cast<double>(mean_radiance));
+}
+
+float noise_share(const RenderRequest& request) {
+  return request.samples ? 0 : kQuality[static_cast<std::size_t>(request.quality)].noise_share;
 }
 
 float mean_radiance(const RadiositySolution& solution) {
@@ -109,6 +124,9 @@ Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   settings.seed = request.seed;
   settings.camera_samples = request.samples ? static_cast<std::uint32_t>(*request.samples)
                                             : (is_path ? quality.path_samples : quality.gather_samples);
+  const bool may_differ = settings.integrator == Settings::Integrator::kGather && request.gather == Gather::kDefault &&
+                          !request.samples;
+  settings.max_camera_samples = may_differ ? kMostSamples * settings.camera_samples : settings.camera_samples;
   const bool has_audit = request.audit && !request.mesh;
   settings.audit_pixels = has_audit ? quality.audit_pixels : 0;
   settings.audit_samples = has_audit ? quality.audit_samples : 0;
@@ -124,7 +142,19 @@ Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   settings.senders.max_senders = quality.max_senders;
   settings.senders.vertex_samples = quality.vertex_samples;
   settings.senders.samples_per_gather = quality.samples_per_gather;
-  settings.senders.threshold = request.threshold.value_or(0);
+  settings.senders.reflected_rays = quality.reflected_rays;
+  settings.senders.next_events = quality.next_events;
+  settings.senders.sky_lines = static_cast<std::uint32_t>(quality.samples_per_gather);
+  settings.senders.gather = request.gather;
+  settings.senders.paper_samples = kPaperSamples * quality.full_lines;
+  const bool is_full = request.integrator == RenderRequest::Integrator::kFullGather;
+  if (is_full) {
+    settings.senders.samples_per_gather = quality.full_lines;
+    settings.senders.reflected_rays = static_cast<std::uint32_t>(quality.full_lines / 4);
+    settings.senders.next_events = 0;  // links, to the end
+  }
+  settings.senders.threshold_scale = is_full || request.threshold ? 0 : quality.threshold_scale;
+  settings.senders.threshold = is_full ? 0 : request.threshold.value_or(0);
   return settings;
 }
 

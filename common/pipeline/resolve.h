@@ -19,8 +19,12 @@ Result<ChosenCamera> choose_camera(const Scene& scene, const RenderRequest& requ
 /// here and are set by prepare(). Pure.
 Settings resolve_settings(const RenderRequest& request, const Camera& camera);
 
-/// The sender threshold that a quality stands for, as a share of the scene's mean radiance; and that mean, cd/m^2.
-float threshold_share(RenderRequest::Quality quality);
+/// The sender threshold, cd/m^2, of so many just visible differences where a display shows the mean radiance as middle grey:
+/// for views without a pilot image. And the mean radiance of a solution, cd/m^2.
+float grey_threshold(float scale, float mean_radiance);
 float mean_radiance(const RadiositySolution& solution);
+
+/// Settings::noise as a share of the mean radiance; 0, all pixels alike, where somebody asked for a number of samples.
+float noise_share(const RenderRequest& request);
 
 }  // namespace radfarm

@@ -2,6 +2,8 @@
 
 #include "estimate/gather.h"
 #include "estimate/mesh_lines.h"
+#include "estimate/paper_gather.h"
+#include "estimate/paper_tile.h"
 #include "estimate/path_reference.h"
 #include "estimate/task_result.h"
 #include "frame/tasks.h"
@@ -19,15 +21,16 @@ Film film_of(const View& view, EffectSet off) {
 }
 
 SampleRadiance path_integrator(const World& world, bool has_interreflection) {
-  return [&world, has_interreflection](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
-    return trace_path(world, ray, sampler, counters, has_interreflection);
+  return [&world, has_interreflection](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
+    return trace_path(world, ray, sampler, counters, has_interreflection, first);
   };
 }
 
 SampleRadiance gouraud_integrator(const Prepared::Parts& parts, const Film& film) {
   const GouraudContext context{parts.world, *parts.mesh, *parts.sides};
-  const SampleRadiance shaded = [context](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
-    return gouraud_radiance(context, ray, sampler, counters);
+  const SampleRadiance shaded = [context](const Ray& ray, const PixelSampler& sampler, Counters& counters,
+                                          FirstSurface* first) {
+    return gouraud_radiance(context, ray, sampler, counters, first);
   };
   return parts.view.settings.draws_mesh != 0 ? with_mesh_lines(shaded, context, film) : shaded;
 }
@@ -37,8 +40,13 @@ SampleRadiance integrator(const Prepared::Parts& parts, const Film& film) {
   if (!parts.senders) return path_integrator(parts.world, parts.has_interreflection());
   const GatherContext context{parts.world, parts.tree, *parts.lookup, *parts.senders, parts.view.settings.senders,
                               parts.has_interreflection()};
-  return [context](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
-    return gather_radiance(context, ray, sampler, counters);
+  if (parts.is_paper()) {
+    return [context](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
+      return paper_gather_radiance(context, ray, sampler, counters, first);
+    };
+  }
+  return [context](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
+    return gather_radiance(context, ray, sampler, counters, first);
   };
 }
 
@@ -48,7 +56,12 @@ std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t inde
   result.rect = tile_rect(settings, index);
   Film film = film_of(parts.view, settings.effects_off);
   film.cone_samples = settings.camera_samples;
-  result.pixels = render_tile(film, result.rect, settings.camera_samples, integrator(parts, film), result.counters);
+  const SampleRadiance radiance = integrator(parts, film);
+  const SampleBudget budget{settings.camera_samples, settings.max_camera_samples, settings.noise};
+  std::vector<AovSums>* const aovs = settings.aovs != 0 ? &result.aovs : nullptr;
+  result.pixels = parts.is_paper() ? render_paper_tile(parts.world, film, result.rect, settings.camera_samples, radiance,
+                                                       result.counters)
+                                   : render_tile(film, result.rect, budget, radiance, result.counters, aovs);
   return encode(result);
 }
 

@@ -44,7 +44,7 @@ Result<SolvedLight> decode(const std::string& key, std::span<const std::byte> by
   RADFARM_TRY(light.file, file.copy<std::byte>("file"));
   light.digest = sha256_hex(light.file);
   if (said != checksum(key, light)) return fail(Code::kDataLoss, "its checksum is another");
-  if (light.facts.form == LightForm::kSenders) RADFARM_TRY_STATUS(decode_sender_tree(light.file));
+  if (light.facts.form != LightForm::kElements) RADFARM_TRY_STATUS(decode_sender_tree(light.file));
   return light;
 }
 

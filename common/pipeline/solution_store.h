@@ -11,7 +11,7 @@
 namespace radfarm {
 
 /// What a solution is made into: what a gather samples, or what is looked at.
-enum class LightForm : std::uint64_t { kSenders, kElements };
+enum class LightForm : std::uint64_t { kSenders, kAllSenders, kElements };
 
 /// What a radiosity solve leaves: all that the stages after it and the report need, independent of any camera.
 struct SolvedLight {

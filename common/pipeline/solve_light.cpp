@@ -14,16 +14,19 @@ namespace {
 RadiositySolution emitters_alone(const World& world, std::uint64_t seed, const Progress& progress) {
   RadiositySolution solution;
   const SideNumbers sides(world.scene);
-  solution.hierarchy = build_hierarchy(world, sides, reachable_sides(world, sides, seed, progress));
+  solution.hierarchy = build_hierarchy(world, sides, reachable_sides(world, sides, seed, progress), progress);
   solution.reflected_power.resize(solution.hierarchy.nodes.size());
   return solution;
 }
 
 std::vector<std::byte> make_file(const World& world, const RadiositySolution& solution, const WantedLight& wanted,
                                  const Progress& progress) {
-  if (wanted.form == LightForm::kSenders) return encode(make_sender_tree(solution));
-  progress.report("radiosity: elements");
-  return encode(make_element_mesh(world, solution.hierarchy, gather_irradiance(world, solution, kGatherRays, wanted.seed)));
+  if (wanted.form != LightForm::kElements) {
+    return encode(make_sender_tree(solution, wanted.form == LightForm::kSenders ? SenderChoice::kBright : SenderChoice::kAll));
+  }
+  const std::vector<Irradiance> irradiance = gather_irradiance(world, solution, kGatherRays, wanted.seed, progress);
+  progress.report("radiosity: element mesh");
+  return encode(make_element_mesh(world, solution.hierarchy, irradiance));
 }
 
 }  // namespace
@@ -41,6 +44,7 @@ Result<ObtainedLight> obtain_light(const World& world, const WantedLight& wanted
   obtained.light.facts = {solution.energy,     solution.links, solution.hierarchy.patches.size(),
                           solution.iterations, static_cast<double>(mean_radiance(solution)), wanted.form};
   obtained.light.file = make_file(world, solution, wanted, progress);
+  RADFARM_TRY_STATUS(progress.check());
   obtained.light.digest = sha256_hex(obtained.light.file);
   store.keep(key, obtained.light);
   return obtained;

@@ -6,8 +6,6 @@
 
 namespace radfarm {
 
-inline bool is_undivided(const Node& node) { return !node.is_cluster() && node.child_count == 0; }
-
 /// What one link delivers, packed: the iteration reads every one of them many times.
 struct Delivery {
   Vec3 direction{0, 0, 0};       // of cluster receivers: their patches take their cosine to it; zero: no direction

@@ -16,6 +16,7 @@ namespace {
 
 // A side of a triangle is cut in so many for its mean: textures are averaged over each part, all else is taken at its middle.
 constexpr int kLattice = 4;
+constexpr std::size_t kReportedLeaves = 4096;  // are placed in some 10 ms
 
 /// Whether a mesh is the same all over: no texture, no vertex colours.
 bool is_plain(const Scene& scene, std::uint32_t instance) {
@@ -114,7 +115,8 @@ struct PendingRange {
   int depth;
 };
 
-void build_tree(Hierarchy& hierarchy, std::vector<ClusterItem>& items) {
+void build_tree(Hierarchy& hierarchy, std::vector<ClusterItem>& items, const Progress& progress) {
+  std::size_t placed = 0;
   hierarchy.nodes.resize(1);
   std::vector<PendingRange> pending = {{0, 0, items.size(), 0}};
   hierarchy.leaves.resize(items.size());
@@ -126,6 +128,7 @@ void build_tree(Hierarchy& hierarchy, std::vector<ClusterItem>& items) {
     if (range.end - range.begin == 1) {
       hierarchy.nodes[range.node].patch = items[range.begin].patch;
       hierarchy.leaves[range.begin] = range.node;
+      if (++placed % kReportedLeaves == 0) progress.report("radiosity: clusters", placed, items.size());
       continue;
     }
     const std::size_t first = split_items(std::span(items).subspan(range.begin, range.end - range.begin), range.depth);
@@ -162,7 +165,8 @@ float area_of(const TriangleVertices& v) {
   return static_cast<float>(length(cross(to_double(v[1]) - to_double(v[0]), to_double(v[2]) - to_double(v[0]))) / 2);
 }
 
-Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const std::vector<bool>& is_reachable) {
+Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const std::vector<bool>& is_reachable,
+                          const Progress& progress) {
   Hierarchy hierarchy;
   struct Source {
     std::uint32_t instance, triangle;
@@ -180,13 +184,15 @@ Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const st
   if (sources.empty()) return hierarchy;
   hierarchy.patches.resize(sources.size());
   std::vector<ClusterItem> items(sources.size());
-  parallel_for(sources.size(), 1024, [&](std::size_t begin, std::size_t end) {
+  parallel_for(progress, "radiosity: patches", sources.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       hierarchy.patches[i] = make_patch(world, sources[i].instance, sources[i].triangle, sources[i].is_front);
       items[i] = make_item(hierarchy.patches[i], static_cast<std::uint32_t>(i));
     }
   });
-  build_tree(hierarchy, items);
+  if (progress.is_cancelled()) return {};
+  progress.report("radiosity: clusters", 0, items.size());
+  build_tree(hierarchy, items, progress);
   for (std::size_t i = hierarchy.nodes.size(); i-- > 0;) {
     Node& node = hierarchy.nodes[i];
     node.is_cluster() ? fill_from_children(hierarchy, node) : fill_from_patch(hierarchy.patches[node.patch], node);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "math/spectrum.h"
 #include "math/vec.h"
 #include "radiosity/reach.h"
@@ -45,6 +46,9 @@ struct Node {
   bool is_cluster() const { return patch == kNone; }
 };
 
+/// Whether it is a patch without parts: what receives and reflects.
+inline bool is_undivided(const Node& node) { return !node.is_cluster() && node.child_count == 0; }
+
 /// The cluster hierarchy over all patches: node 0 is the root. Grows only by subdivide().
 struct Hierarchy {
   std::vector<Node> nodes;
@@ -58,7 +62,8 @@ struct Hierarchy {
 };
 
 /// Clusters by split_items(). Sides that no light reaches are left out. O(n log n) in the number of sides. Deterministic.
-Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const std::vector<bool>& is_reachable);
+Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const std::vector<bool>& is_reachable,
+                          const Progress& progress = {});
 
 /// Cuts a patch into four by its edges' midpoints; returns the first of the four new nodes. Requires: no children yet.
 std::uint32_t subdivide(Hierarchy& hierarchy, std::uint32_t node);

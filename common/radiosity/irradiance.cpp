@@ -1,6 +1,5 @@
 #include "radiosity/irradiance.h"
 
-#include "base/parallel.h"
 #include "base/random.h"
 #include "math/sampling.h"
 #include "math/sobol.h"
@@ -49,11 +48,11 @@ Spectrum gather_indirect(const Surroundings& around, const Patch& patch, std::ui
 
 /// The mean of independent rounds, in their order.
 void add_direct(const World& world, const Hierarchy& hierarchy, std::uint32_t rounds, std::uint64_t seed,
-                std::vector<Irradiance>& irradiance) {
+                const Progress& progress, std::vector<Irradiance>& irradiance) {
   std::vector<Spectrum> direct;
-  for (std::uint32_t round = 0; round < rounds; ++round) {
+  for (std::uint32_t round = 0; round < rounds && !progress.is_cancelled(); ++round) {
     direct.clear();
-    sample_direct(world, hierarchy, kDirectSamples, combine(seed, kGatherKey, round), direct);
+    sample_direct(world, hierarchy, kDirectSamples, combine(seed, kGatherKey, round), direct, progress);
     for (std::size_t i = 0; i < direct.size(); ++i) {
       if (is_undivided(hierarchy.nodes[i])) irradiance[i].direct += direct[i] / static_cast<float>(rounds);
     }
@@ -63,15 +62,15 @@ void add_direct(const World& world, const Hierarchy& hierarchy, std::uint32_t ro
 }  // namespace
 
 std::vector<Irradiance> gather_irradiance(const World& world, const RadiositySolution& solution, std::uint32_t rays,
-                                          std::uint64_t seed) {
+                                          std::uint64_t seed, const Progress& progress) {
   const Hierarchy& hierarchy = solution.hierarchy;
   std::vector<Irradiance> irradiance(hierarchy.nodes.size());
   if (hierarchy.nodes.empty()) return irradiance;
   const SideNumbers sides(world.scene);
   const Surroundings around{world, solution, sides, nodes_of_sides(sides, hierarchy)};
-  add_direct(world, hierarchy, rays / kRaysPerRound, seed, irradiance);
+  add_direct(world, hierarchy, rays / kRaysPerRound, seed, progress, irradiance);
   if (is_black(solution.reflected_power[0])) return irradiance;
-  parallel_for(hierarchy.nodes.size(), 256, [&](std::size_t begin, std::size_t end) {
+  parallel_for(progress, "radiosity: elements", hierarchy.nodes.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!is_undivided(hierarchy.nodes[i])) continue;
       const Patch& patch = hierarchy.patches[hierarchy.nodes[i].patch];

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "radiosity/solve.h"
 
 namespace radfarm {
@@ -26,6 +27,6 @@ inline constexpr std::uint32_t kGatherRays = 64;
 /// sample_direct(), `rays` / 16 rounds. One value a node, zero where a node has parts. Unbiased but for the solution's own error.
 /// Cost: 1.5 us for each of `rays` and patch. Deterministic for any thread count. Requires: rays >= 16.
 std::vector<Irradiance> gather_irradiance(const World& world, const RadiositySolution& solution, std::uint32_t rays,
-                                          std::uint64_t seed);
+                                          std::uint64_t seed, const Progress& progress = {});
 
 }  // namespace radfarm

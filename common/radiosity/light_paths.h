@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "radiosity/first_light.h"
 #include "radiosity/hierarchy.h"
 
 namespace radfarm {
 
-/// What paths of light met, after their first surface: light that emitters give directly is in sample_direct().
+/// What paths of light met, after their first surface: what emitters and specular paths bring there is known already.
 struct PathHits {
   std::vector<std::uint32_t> count;    // one a node, at undivided patches
   std::vector<SpectrumD> reflected;    // lm, one a node, at undivided patches: what they reflect of it
@@ -20,12 +21,15 @@ struct PathHits {
   SpectrumD lost{};                    // ... and what was absorbed or escaped from there on; of the same mean
 };
 
-/// Follows `paths` paths of light from the emitters until they are absorbed or leave the scene.  docs/pipeline.md (radiosity.7)
+/// Follows `paths` paths of light until they are absorbed or leave the scene.                 docs/pipeline.md (radiosity.7)
 ///
+/// They start from the emitters, and where specular paths bring light: there the first surface is that of the start.
+/// Each source has paths by its share of the flux.
 /// Paths go on from the very points they meet, with the reflectance there, so nothing is smeared over patches; they survive a
 /// reflection with the share of luminance that is reflected. A side that was left out of the hierarchy reflects like any other
 /// but keeps no count. About 1 us a ray. Deterministic for any thread count.
-PathHits follow_light(const World& world, const SideNumbers& sides, const Hierarchy& hierarchy, std::size_t paths,
+/// Requires: sides with specular light are in `hierarchy`.
+PathHits follow_light(const FirstLight& light, const SideNumbers& sides, const Hierarchy& hierarchy, std::size_t paths,
                       std::uint64_t seed, const Progress& progress = {});
 
 /// Scales what was found, by channel, so that as much is lost as had landed. What chance did to the length

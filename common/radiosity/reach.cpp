@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/check.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "math/sampling.h"
@@ -166,6 +167,12 @@ void light_emitters(const World& world, const SideNumbers& sides, const std::vec
   }
 }
 
+void light_specular(const FirstLight& light, Reach& reach) {
+  for (std::uint32_t s = 0; s < light.specular.size(); ++s) {
+    if (!is_black(light.specular[s])) reach.light(s);
+  }
+}
+
 /// Sides of groups that are dark so far, of which a point sees an emitter: one so far away or so small that no ray met it.
 void mark_lit_directly(const World& world, const std::vector<Side>& list, std::uint64_t key, Reach& reach) {
   if (world.emitters.size() == 0) return;
@@ -198,11 +205,14 @@ SideNumbers::SideNumbers(const Scene& scene) {
   count = 2 * triangles;
 }
 
-std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed,
+std::vector<bool> reachable_sides(const FirstLight& light, const SideNumbers& sides, std::uint64_t seed,
                                   const Progress& progress) {
+  RADFARM_CHECK(light.specular.empty() || light.specular.size() == sides.count);
+  const World& world = light.world;
   const std::vector<Side> list = list_sides(world.scene, sides.count);
   Reach reach{Groups(list.size()), std::vector<bool>(list.size())};
   light_emitters(world, sides, list, seed, reach);
+  light_specular(light, reach);
   const std::vector<std::uint32_t> counts = share_rays(world, list);
   std::vector<Rays> rays(list.size());
   for (std::size_t s = 0; s < rays.size(); ++s) rays[s] = {0, counts[s]};

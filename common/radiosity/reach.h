@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "scene/world.h"
+#include "radiosity/first_light.h"
 
 namespace radfarm {
 
@@ -20,11 +20,12 @@ struct SideNumbers {
 
 /// Which triangle sides light can reach at all: one flag a side.
 ///
-/// A few cosine-distributed rays from every side join it with the sides they meet; what hangs together with an emitting side
-/// or a punctual light is reached. The inside of closed furniture and the outside of a closed room are not: without this,
+/// A few cosine-distributed rays from every side join it with the sides they meet; what hangs together with an emitting side,
+/// a punctual light or a side that specular paths light is reached.
+/// The inside of closed furniture and the outside of a closed room are not: without this,
 /// clusters would spread light to faces that turn the right way but lie inside (docs/pipeline.md, radiosity.2).
 /// A ray a side, more from large ones, and up to 4 from sides that these leave dark; about 1 us each. Deterministic.
-std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed,
+std::vector<bool> reachable_sides(const FirstLight& light, const SideNumbers& sides, std::uint64_t seed,
                                   const Progress& progress = {});
 
 }  // namespace radfarm

@@ -11,6 +11,7 @@
 #include "radiosity/escape.h"
 #include "radiosity/light_paths.h"
 #include "radiosity/path_posterior.h"
+#include "radiosity/specular_light.h"
 
 namespace radfarm {
 namespace {
@@ -61,15 +62,15 @@ double settle(const Hierarchy& hierarchy, const std::vector<Spectrum>& direct, d
   for (std::size_t i = 0; i < kMaxIterations; ++i) {
     change = iterate(hierarchy, response, direct, deliveries, reflected);
     ++solution.iterations;
+    progress.report("radiosity: solving", i + 1);
     if (change <= max_change || progress.is_cancelled()) break;
   }
   pull_up(hierarchy, reflected);
   return change;
 }
 
-void fill_ledger(const World& world, const Hierarchy& hierarchy, const std::vector<Spectrum>& direct,
-                 const Deliveries& deliveries, double truncated, EnergyLedger& energy) {
-  energy.emitted = world.emitters.total_flux;
+void fill_ledger(const Hierarchy& hierarchy, const std::vector<Spectrum>& direct, const Deliveries& deliveries, double truncated,
+                 EnergyLedger& energy) {
   const std::vector<Spectrum> indirect = gather(hierarchy, deliveries);
   double absorbed = 0;
   for (std::uint32_t i = 0; i < hierarchy.nodes.size(); ++i) {
@@ -87,12 +88,12 @@ void fill_ledger(const World& world, const Hierarchy& hierarchy, const std::vect
 void solve_links(const World& world, const std::vector<Link>& links, double residual, const std::vector<Spectrum>& direct,
                  std::uint64_t seed, const Progress& progress, RadiositySolution& solution) {
   progress.report("radiosity: solving");
-  const double max_change = residual * world.emitters.total_flux;
+  const double max_change = residual * solution.energy.emitted;
   Deliveries deliveries(links, solution.hierarchy);
   const double escaping = probe_escaping(world, solution.hierarchy, seed);
   solution.energy.closure_error = normalise(solution.hierarchy, solution.reflected_power, escaping, deliveries);
   const double change = settle(solution.hierarchy, direct, max_change, deliveries, progress, solution);
-  fill_ledger(world, solution.hierarchy, direct, deliveries, change, solution.energy);
+  fill_ledger(solution.hierarchy, direct, deliveries, change, solution.energy);
 }
 
 /// Paths enough for `hits_per_patch`, by how much light the links found after its first reflection.
@@ -105,7 +106,13 @@ std::size_t count_paths(const RadiositySettings& settings, const RadiositySoluti
   return static_cast<std::size_t>(std::min(paths, kMaxRays / std::max(bounces, 1.0)));
 }
 
-/// Light that arrives at surfaces straight from emitters, lm. Less than is emitted where it shines from outside.
+/// Irradiance before any reflection among diffuse surfaces: what emitters give, and what specular paths bring.
+std::vector<Spectrum> add_specular(std::vector<Spectrum> direct, const std::vector<Spectrum>& specular) {
+  for (std::size_t i = 0; i < specular.size(); ++i) direct[i] += specular[i];
+  return direct;
+}
+
+/// Light that arrives at surfaces before any reflection, lm. Less than is emitted where it shines from outside.
 double landed(const Hierarchy& hierarchy, const std::vector<Spectrum>& direct) {
   double sum = 0;
   for (std::size_t i = 0; i < direct.size(); ++i) {
@@ -120,7 +127,7 @@ bool shines_from_outside(const World& world) {
   return !world.environment.is_empty() || std::ranges::any_of(world.emitters.punctual, is_directional);
 }
 
-/// What undivided patches reflect of the light that emitters give them, lm.
+/// What undivided patches reflect of the light that emitters and specular paths give them, lm.
 std::vector<Spectrum> reflect_direct(const Hierarchy& hierarchy, const std::vector<Spectrum>& direct) {
   std::vector<Spectrum> reflected(hierarchy.nodes.size());
   for (std::size_t i = 0; i < reflected.size(); ++i) {
@@ -130,8 +137,15 @@ std::vector<Spectrum> reflect_direct(const Hierarchy& hierarchy, const std::vect
   return reflected;
 }
 
+/// What specular paths bring is known before any link is.
+void start_with_specular(const Hierarchy& hierarchy, const std::vector<Spectrum>& specular, NodePower& reflected) {
+  if (specular.empty()) return;
+  reflected = reflect_direct(hierarchy, specular);
+  pull_up(hierarchy, reflected);
+}
+
 /// (radiosity.7) The light that surfaces exchange, as paths find it; the links' solution is the guess where few paths went.
-void follow_paths(const World& world, const SideNumbers& sides, const std::vector<Spectrum>& direct,
+void follow_paths(const FirstLight& light, const SideNumbers& sides, const std::vector<Spectrum>& direct,
                   const RadiositySettings& settings, std::uint64_t seed, const Progress& progress,
                   RadiositySolution& solution) {
   const Hierarchy& hierarchy = solution.hierarchy;
@@ -140,7 +154,7 @@ void follow_paths(const World& world, const SideNumbers& sides, const std::vecto
   for (std::size_t i = 0; i < indirect.size(); ++i) {
     if (is_undivided(hierarchy.nodes[i])) indirect[i] = solution.reflected_power[i] - reflected[i];
   }
-  PathHits hits = follow_light(world, sides, hierarchy, count_paths(settings, solution), seed, progress);
+  PathHits hits = follow_light(light, sides, hierarchy, count_paths(settings, solution), seed, progress);
   balance(hits);
   indirect = combine_with_guess(hierarchy, hits, indirect);
   for (std::size_t i = 0; i < indirect.size(); ++i) solution.reflected_power[i] = reflected[i] + indirect[i];
@@ -152,18 +166,21 @@ void follow_paths(const World& world, const SideNumbers& sides, const std::vecto
 
 }  // namespace
 
-RadiositySolution solve_radiosity(const World& world, const RadiositySettings& settings, std::uint64_t seed,
+RadiositySolution solve_radiosity(const FirstLight& light, const RadiositySettings& settings, std::uint64_t seed,
                                   const Progress& progress) {
   RadiositySolution solution;
+  const World& world = light.world;
   const SideNumbers sides(world.scene);
-  const std::vector<bool> reachable = reachable_sides(world, sides, seed, progress);
-  progress.report("radiosity: hierarchy");
-  solution.hierarchy = build_hierarchy(world, sides, reachable);
-  solution.reflected_power.resize(solution.hierarchy.nodes.size());
-  double flux = world.emitters.total_flux;  // that errors are shares of
-  if (solution.hierarchy.nodes.empty() || !(flux > 0)) return solution;
-  std::vector<Link> links = initial_links(world, solution.hierarchy);
-  std::vector<Spectrum> direct;
+  const std::vector<bool> reachable = reachable_sides(light, sides, seed, progress);
+  solution.hierarchy = build_hierarchy(world, sides, reachable, progress);
+  const Hierarchy& hierarchy = solution.hierarchy;
+  solution.reflected_power.resize(hierarchy.nodes.size());
+  double flux = world.emitters.total_flux + SpecularStarts(light, sides, hierarchy).flux();  // that errors are shares of
+  if (hierarchy.nodes.empty() || !(flux > 0)) return solution;
+  solution.energy.emitted = flux;
+  start_with_specular(hierarchy, specular_irradiance(light, sides, hierarchy), solution.reflected_power);
+  std::vector<Link> links = initial_links(world, hierarchy);
+  std::vector<Spectrum> direct, first;
   bool is_last = false;
   while (!is_last && !progress.is_cancelled()) {
     const std::size_t splits =
@@ -171,15 +188,18 @@ RadiositySolution solve_radiosity(const World& world, const RadiositySettings& s
     is_last = ++solution.passes == settings.max_passes || (splits == 0 && solution.passes > 1);
     if (is_last) measure_again(world, solution.hierarchy, solution.reflected_power, links, settings, seed, progress);
     set_reflected_power(solution.hierarchy, solution.reflected_power);
-    sample_direct(world, solution.hierarchy, settings.direct_samples, seed, direct, progress);
-    if (shines_from_outside(world)) flux = std::min(flux, std::max(landed(solution.hierarchy, direct), 1e-3 * flux));
+    sample_direct(world, hierarchy, settings.direct_samples, seed, direct, progress);
+    first = add_specular(direct, specular_irradiance(light, sides, hierarchy));
+    if (shines_from_outside(world)) flux = std::min(flux, std::max(landed(hierarchy, first), 1e-3 * flux));
     // Passes before the last only steer the refinement.
     const double residual = static_cast<double>(settings.residual) * (is_last ? 1 : kSteeringResidual);
-    solve_links(world, links, residual, direct, combine(seed, solution.passes), progress, solution);
+    solve_links(world, links, residual, first, combine(seed, solution.passes), progress, solution);
   }
   solution.links = links.size();
-  if (settings.hits_per_patch > 0 && !progress.is_cancelled()) {
-    follow_paths(world, sides, direct, settings, seed, progress, solution);
+  if (progress.is_cancelled()) return solution;
+  solution.reflected_direct = reflect_direct(hierarchy, direct);
+  if (settings.hits_per_patch > 0) {
+    follow_paths(light, sides, first, settings, seed, progress, solution);
   }
   return solution;
 }

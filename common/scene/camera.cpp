@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "math/sampling.h"
@@ -73,6 +74,14 @@ RayCone pixel_cone(const Camera& camera, int height, const Vec3& direction, std:
   // A pixel off the axis is smaller across the ray, by the cosine on one axis and its square on the other.
   const float cosine = dot(direction, camera.forward);
   return {0, pixel * cosine * cosine, share};
+}
+
+double pixels_per_degree(const Camera& camera, int height) {
+  constexpr double kOrthographicHeight = 45;
+  constexpr double kDegree = std::numbers::pi / 180;
+  const bool is_perspective = camera.kind == Camera::Kind::kPerspective;
+  const double fov = is_perspective ? static_cast<double>(camera.vertical_fov) : kOrthographicHeight * kDegree;
+  return height / (2 * std::tan(fov / 2) / kDegree);
 }
 
 Result<Camera> place_camera(const Vec3& eye, const Vec3& look_at, const Vec3& up, float vertical_fov) {

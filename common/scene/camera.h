@@ -26,6 +26,10 @@ Ray camera_ray(const Camera& camera, int width, int height, float x, float y, co
 /// their number (docs/decisions/0016). A lens widens nothing: its blur is what the samples cover.
 RayCone pixel_cone(const Camera& camera, int height, const Vec3& direction, std::uint32_t samples);
 
+/// Pixels of an image so high per degree of the field of view of an eye where the camera is; an orthographic image is looked
+/// at as if it were 45 degrees high.
+double pixels_per_degree(const Camera& camera, int height);
+
 /// A camera that looks from `eye` at `look_at`. INVALID_ARGUMENT when they coincide; an up vector along the view is
 /// replaced by another axis.
 Result<Camera> place_camera(const Vec3& eye, const Vec3& look_at, const Vec3& up, float vertical_fov);

@@ -26,11 +26,26 @@ float slice_of_depth(const PerspectiveGrid& grid, float z) {
 
 Vec3 PerspectiveGrid::vertex_position(std::uint32_t id) const {
   const auto [i, j, k] = vertex_indices(id);
-  const float z = depth_of_slice(*this, static_cast<float>(k));
+  return position({static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)});
+}
+
+Vec3 PerspectiveGrid::position(const Vec3& cells) const {
+  const float z = depth_of_slice(*this, cells.z);
   const Vec2 half = half_extent(*this, z);
-  const float x = (2 * static_cast<float>(i) / static_cast<float>(columns) - 1) * half.x;
-  const float y = (1 - 2 * static_cast<float>(j) / static_cast<float>(rows)) * half.y;
+  const float x = (2 * cells.x / static_cast<float>(columns) - 1) * half.x;
+  const float y = (1 - 2 * cells.y / static_cast<float>(rows)) * half.y;
   return camera.position + camera.right * x + camera.up * y + camera.forward * z;
+}
+
+std::vector<std::uint32_t> PerspectiveGrid::cells_around(std::uint32_t vertex) const {
+  const auto [i, j, k] = vertex_indices(vertex);
+  std::vector<std::uint32_t> cells;
+  for (std::uint32_t corner = 0; corner < 8; ++corner) {
+    // One step back along each axis or none. Unsigned wrap-around fails the bound.
+    const std::uint32_t x = i - (corner & 1U), y = j - ((corner >> 1U) & 1U), z = k - (corner >> 2U);
+    if (x < columns && y < rows && z < slices) cells.push_back((z * rows + y) * columns + x);
+  }
+  return cells;
 }
 
 Vec3 PerspectiveGrid::locate(const Vec3& position) const {
@@ -51,6 +66,11 @@ std::uint32_t PerspectiveGrid::cell_at(const Vec3& position) const {
     return std::min(static_cast<std::uint32_t>(coordinate), cells - 1);
   };
   return (cell(at.z, slices) * rows + cell(at.y, rows)) * columns + cell(at.x, columns);
+}
+
+float PerspectiveGrid::pixel_width(const Vec3& position) const {
+  const float z = std::clamp(dot(position - camera.position, camera.forward), near, far);
+  return 2 * half_extent(*this, z).y / film_height;
 }
 
 float PerspectiveGrid::cell_width(const Vec3& position) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "scene/scene.h"
 #include "senders/settings.h"
@@ -14,6 +15,7 @@ namespace radfarm {
 struct PerspectiveGrid {
   Camera camera;                // name unused
   float film_aspect = 1;        // width / height
+  float film_height = 1;        // pixels
   float near = 1, far = 2;      // m along the view axis
   std::uint32_t columns = 1, rows = 1, slices = 1;
 
@@ -27,11 +29,17 @@ struct PerspectiveGrid {
   }
   /// The world position of a vertex.
   Vec3 vertex_position(std::uint32_t id) const;
+  /// The world position of continuous coordinates, in cells.
+  Vec3 position(const Vec3& cells) const;
+  /// Cells that touch a vertex: up to 8, fewer at the border.
+  std::vector<std::uint32_t> cells_around(std::uint32_t vertex) const;
   /// Continuous coordinates of a point, in cells; points outside are moved to the nearest border.
   Vec3 locate(const Vec3& position) const;
   std::uint32_t cell_at(const Vec3& position) const;
   /// How wide a cell is at the depth of a point, m: what lies closer to the point than that, a vertex cannot know of.
   float cell_width(const Vec3& position) const;
+  /// How much of a surface that faces the camera a pixel shows at the depth of a point, m.
+  float pixel_width(const Vec3& position) const;
 };
 
 /// The four vertices whose values a point interpolates, and their weights, >= 0, that add up to 1: the conforming split of

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/parallel.h"
 #include "base/random.h"
 #include "math/sobol.h"
 
@@ -14,20 +13,30 @@ namespace {
 constexpr std::uint64_t kPrepassKey = 0x70726570;  // "prep"
 constexpr float kMargin = 1.02F;                   // the grid reaches a little beyond the depths seen
 
-std::vector<ReceiverPoint> visible_in_row(const World& world, const Camera& camera, int width, int height, int y,
-                                          std::uint32_t samples, std::uint64_t seed) {
-  std::vector<ReceiverPoint> row;
-  for (int x = 0; x < width; ++x) {
-    const std::uint64_t key = combine(seed, kPrepassKey, static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(x));
-    for (std::uint32_t s = 0; s < samples; ++s) {
+VisiblePoints::Light light_at(const World& world, const ReflectorLookup& lookup, const Hit& hit, const SurfacePoint& point) {
+  VisiblePoints::Light light{luminance(world.surfaces.emission(point)), -1};
+  const std::uint32_t id = lookup.find(hit, point);
+  if (id == kNone) return light;
+  const Reflector& reflector = lookup.tree().reflectors[id];
+  if (reflector.reflectance > 0) light.irradiance = kPi * luminance(reflector.radiance) / reflector.reflectance;
+  return light;
+}
+
+VisiblePoints visible_in_row(const World& world, const ReflectorLookup& lookup, const Prepass& film, int y) {
+  VisiblePoints row;
+  for (int x = 0; x < film.width; ++x) {
+    const std::uint64_t key = combine(film.seed, kPrepassKey, static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(x));
+    for (std::uint32_t s = 0; s < film.samples; ++s) {
       const Vec2 jitter = sobol_owen_2d(s, key);
-      const Ray ray = camera_ray(camera, width, height, static_cast<float>(x) + jitter.x,
+      const Ray ray = camera_ray(film.camera, film.width, film.height, static_cast<float>(x) + jitter.x,
                                  static_cast<float>(y) + jitter.y);
       const auto hit = world.caster.closest(ray, combine(key, s));
       if (!hit) continue;
       SurfacePoint point = world.surfaces.at(*hit);
       face(point, -ray.direction);
-      row.push_back({leave(point), point.shading_normal, luminance(world.surfaces.reflectance(point))});
+      row.points.push_back({leave(point), point.shading_normal, luminance(world.surfaces.reflectance(point))});
+      row.lights.push_back(light_at(world, lookup, *hit, point));
+      row.pixels.push_back(static_cast<std::uint32_t>(y * film.width + x));
     }
   }
   return row;
@@ -35,17 +44,18 @@ std::vector<ReceiverPoint> visible_in_row(const World& world, const Camera& came
 
 }  // namespace
 
-std::vector<ReceiverPoint> find_visible_points(const World& world, const Camera& camera, int width, int height,
-                                               std::uint32_t samples, std::uint64_t seed) {
-  std::vector<std::vector<ReceiverPoint>> rows(static_cast<std::size_t>(height));
-  parallel_for(rows.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      rows[y] = visible_in_row(world, camera, width, height, static_cast<int>(y), samples, seed);
-    }
+VisiblePoints find_visible_points(const World& world, const ReflectorLookup& lookup, const Prepass& film, const Progress& progress) {
+  std::vector<VisiblePoints> rows(static_cast<std::size_t>(film.height));
+  parallel_for(progress, "senders: visible points", rows.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) rows[y] = visible_in_row(world, lookup, film, static_cast<int>(y));
   });
-  std::vector<ReceiverPoint> points;
-  for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
-  return points;
+  VisiblePoints all;
+  for (const VisiblePoints& row : rows) {
+    all.points.insert(all.points.end(), row.points.begin(), row.points.end());
+    all.lights.insert(all.lights.end(), row.lights.begin(), row.lights.end());
+    all.pixels.insert(all.pixels.end(), row.pixels.begin(), row.pixels.end());
+  }
+  return all;
 }
 
 PerspectiveGrid fit_grid(const Camera& camera, int width, int height, const std::vector<ReceiverPoint>& points,
@@ -54,6 +64,7 @@ PerspectiveGrid fit_grid(const Camera& camera, int width, int height, const std:
   grid.camera = camera;
   grid.camera.name.clear();
   grid.film_aspect = static_cast<float>(width) / static_cast<float>(height);
+  grid.film_height = static_cast<float>(height);
   grid.columns = settings.columns;
   grid.rows = settings.rows;
   grid.slices = settings.slices;
@@ -94,15 +105,16 @@ Receivers sort_into_cells(const PerspectiveGrid& grid, const std::vector<Receive
   return receivers;
 }
 
+float mean_reflectance(std::span<const ReceiverPoint> receivers) {
+  float sum = 0;
+  for (const ReceiverPoint& receiver : receivers) sum += receiver.reflectance;
+  return receivers.empty() ? 0 : sum / static_cast<float>(receivers.size());
+}
+
 std::vector<ReceiverPoint> receivers_around(const PerspectiveGrid& grid, const Receivers& receivers,
                                             std::uint32_t vertex, std::uint32_t wanted) {
-  const auto [i, j, k] = grid.vertex_indices(vertex);
   std::vector<ReceiverPoint> all;
-  for (std::uint32_t corner = 0; corner < 8; ++corner) {
-    // Cells touching the vertex: one step back along each axis or none. Unsigned wrap-around fails the bound.
-    const std::uint32_t x = i - (corner & 1U), y = j - ((corner >> 1U) & 1U), z = k - (corner >> 2U);
-    if (x >= grid.columns || y >= grid.rows || z >= grid.slices) continue;
-    const std::uint32_t cell = (z * grid.rows + y) * grid.columns + x;
+  for (const std::uint32_t cell : grid.cells_around(vertex)) {
     for (std::uint32_t p = receivers.first_of_cell[cell]; p < receivers.first_of_cell[cell + 1]; ++p) {
       all.push_back(receivers.points[p]);
     }

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "base/progress.h"
 #include "scene/world.h"
 #include "senders/grid.h"
+#include "senders/reflector_lookup.h"
 
 namespace radfarm {
 
@@ -21,9 +24,28 @@ struct Receivers {
   std::vector<std::uint32_t> first_of_cell;  // one a cell and one past the last
 };
 
-/// What a camera sees: one receiver point a film sample that hits something.
-std::vector<ReceiverPoint> find_visible_points(const World& world, const Camera& camera, int width, int height,
-                                               std::uint32_t samples, std::uint64_t seed);
+/// The samples of the film that look where light is wanted.
+struct Prepass {
+  const Camera& camera;
+  int width = 0;   // pixels
+  int height = 0;
+  std::uint32_t samples = 1;  // a pixel
+  std::uint64_t seed = 0;
+};
+
+/// What a camera sees: one receiver point a film sample that hits something, in the order of pixels, and its light by the
+/// radiosity solution.
+struct VisiblePoints {
+  struct Light {
+    float emission = 0;     // luminance towards the viewer, cd/m^2
+    float irradiance = -1;  // luminance, lux, mean over the patch; below 0: unknown, since nothing is reflected there
+  };
+  std::vector<ReceiverPoint> points;
+  std::vector<Light> lights;          // of each point
+  std::vector<std::uint32_t> pixels;  // of each point: y * width + x
+};
+VisiblePoints find_visible_points(const World& world, const ReflectorLookup& lookup, const Prepass& film,
+                                  const Progress& progress = {});
 
 /// A grid over the depths of the points, a little wider.
 PerspectiveGrid fit_grid(const Camera& camera, int width, int height, const std::vector<ReceiverPoint>& points,
@@ -31,6 +53,9 @@ PerspectiveGrid fit_grid(const Camera& camera, int width, int height, const std:
 
 /// Sorts the points into the grid's cells and keeps at most `per_cell` of each, spread evenly over the film.
 Receivers sort_into_cells(const PerspectiveGrid& grid, const std::vector<ReceiverPoint>& points, std::uint32_t per_cell);
+
+/// Mean luminance of rho; 0 of none.
+float mean_reflectance(std::span<const ReceiverPoint> receivers);
 
 /// Up to `wanted` receiver points of the cells around a vertex, spread evenly; the vertex itself when they hold none.
 std::vector<ReceiverPoint> receivers_around(const PerspectiveGrid& grid, const Receivers& receivers,

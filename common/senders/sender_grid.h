@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "base/status.h"
 #include "senders/vertex_senders.h"
+#include "senders/vertex_thresholds.h"
 
 namespace radfarm {
 
@@ -17,11 +18,18 @@ struct SenderGridFile {
   PerspectiveGrid grid;
   Receivers receivers;
   std::vector<std::uint32_t> vertices;   // ascending ids
-  std::vector<VertexSenders> senders;    // one a vertex
+  std::vector<VertexSenders> senders;    // one of `vertices` each
+  std::vector<float> thresholds;         // T, cd/m^2, one a vertex of the grid
 };
 
-/// Prepass, grid, and the classification of every vertex that a visible point interpolates, on all threads.
-SenderGridFile classify_visible(const World& world, const SenderTree& tree, const Camera& camera, int width, int height,
+/// The classified grid, and what the thresholds came from; where one is given for all, their means only.
+struct ClassifiedView {
+  SenderGridFile file;
+  VertexThresholds perception;  // its values are the file's
+};
+
+/// Prepass, grid, thresholds, and the classification of every vertex that a visible point interpolates, on all threads.
+ClassifiedView classify_visible(const World& world, const SenderTree& tree, const Camera& camera, int width, int height,
                                 const SenderSettings& settings, std::uint64_t seed, const Progress& progress = {});
 
 [[nodiscard]] std::vector<std::byte> encode(const SenderGridFile& file);
@@ -47,6 +55,8 @@ class SenderGrid {
  private:
   PerspectiveGrid grid_;
   Receivers receivers_;
+  std::vector<float> thresholds_;
+  std::unique_ptr<const PaperContext> paper_;  // of the paper's gather alone
   VertexContext context_;
   // One slot a vertex, filled at most once. Two threads that fill the same slot compute the same bits; one result stays.
   mutable std::vector<std::atomic<const VertexSenders*>> slots_;

@@ -13,8 +13,9 @@
 
 namespace radfarm {
 
-/// The part of a radiosity solution that sends light: nodes and patches with power, emitted and reflected apart. Independent
-/// of any camera; stored as one flat file of kind "solution" that every view of the scene shares.
+/// What of a radiosity solution sends light by lines to it, the senders: nodes and patches with power, emitted and reflected
+/// apart; and what sends by rays that meet it, the reflectors. Independent of any camera; stored as one flat file of kind
+/// "solution" that every view of the scene shares.                                      docs/pipeline.md (senders.0)
 struct SenderNode {
   Box3 bounds;
   Vec3 cone_axis{0, 0, 1};
@@ -41,17 +42,38 @@ struct SenderPatch {
   std::uint32_t is_textured_emitter = 0;
 };
 
+/// An undivided patch that reflects; where all are senders, one that only emits as well.
+struct Reflector {
+  TriangleVertices vertices;
+  Spectrum radiance;         // reflected, the same in all directions, cd/m^2
+  Spectrum of_direct;        // of it, light straight from emitters
+  std::uint32_t instance = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t is_front = 1;
+  std::uint32_t by_lines = 0;  // 1: points of the grid have its light by lines to it, however near
+  std::uint32_t sender = kNone;  // the patch's node among the senders, if it is one
+  float reflectance = 0;         // luminance of rho, mean over the patch
+};
+
+/// What reflects by lines, too. Where that is everything, rays bring what is nearer than a grid cell is wide.
+enum class SenderChoice : std::uint32_t { kBright = 0, kAll = 1 };
+
 /// Read in place: from the bytes of a stored solution, which must then outlive it, or from arrays of its own.
 struct SenderTree {
   std::span<const SenderNode> nodes;  // 0 is the root; empty when nothing sends
   std::span<const SenderPatch> patches;
-  std::shared_ptr<const void> arrays;  // keeps alive what the two view, where the tree owns it
+  std::span<const Reflector> reflectors;
+  SenderChoice choice = SenderChoice::kBright;
+  std::shared_ptr<const void> arrays;  // keeps alive what these view, where the tree owns it
 };
 
 /// A tree that owns its arrays.
-SenderTree own_sender_tree(std::vector<SenderNode> nodes, std::vector<SenderPatch> patches);
+SenderTree own_sender_tree(std::vector<SenderNode> nodes, std::vector<SenderPatch> patches,
+                           std::vector<Reflector> reflectors = {}, SenderChoice choice = SenderChoice::kBright);
 
-SenderTree make_sender_tree(const RadiositySolution& solution);
+/// Emitters are always senders. By kBright, of what reflects only patches are whose radiosity is far above the scene's mean:
+/// cosine-distributed rays find all else with little noise and need to know nothing of visibility. O(nodes).
+SenderTree make_sender_tree(const RadiositySolution& solution, SenderChoice choice = SenderChoice::kBright);
 
 [[nodiscard]] std::vector<std::byte> encode(const SenderTree& tree);
 /// A view of `bytes`, which must outlive it and what is copied from it: no process that maps the same file holds a copy. Hostile
@@ -68,5 +90,8 @@ struct SenderSample {
   Vec3 leave() const { return position + normal * offset; }
 };
 SenderSample sample_sender(const SenderTree& tree, std::uint32_t node, float choice, const Vec2& u);
+
+/// The i-th of a sender's own sequence of such points, the same wherever it is asked for: the paper's fixed sample positions.
+SenderSample fixed_sample(const SenderTree& tree, std::uint32_t node, std::uint32_t i);
 
 }  // namespace radfarm

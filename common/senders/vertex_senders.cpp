@@ -1,11 +1,11 @@
 #include "senders/vertex_senders.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/random.h"
 #include "math/sobol.h"
+#include "senders/lobe_sums.h"
 #include "senders/vertex_sky.h"
 
 namespace radfarm {
@@ -17,10 +17,7 @@ constexpr std::uint32_t kReceivers = 16;
 constexpr std::uint32_t kMinSamples = 4;
 constexpr std::uint32_t kMaxSamples = 64;
 constexpr float kCutShare = 0.5F;       // of the threshold: how coarse a sender of the cut may be
-constexpr int kLobesPerSide = 12;       // octahedral bins of directions
 
-// All senders that a vertex interpolates may together change radiance by this many thresholds.
-constexpr float kMaxTail = 5;
 // A sender that the vertex's lines saw hidden is sampled as if this share of it were seen.
 constexpr float kLeastPrior = 0.2F;
 
@@ -35,25 +32,6 @@ struct Observation {
   float hidden_kernel = 0;           // mean kernel of lines below their receivers' horizons
   std::uint32_t above = 0;           // lines above their receivers' horizons
 };
-
-ReceiverRegion region_of(const PerspectiveGrid& grid, std::uint32_t vertex) {
-  ReceiverRegion region{grid.vertex_position(vertex), 0};
-  const auto [i, j, k] = grid.vertex_indices(vertex);
-  for (std::uint32_t corner = 0; corner < 8; ++corner) {
-    const std::uint32_t x = (corner & 1U) != 0 ? std::min(i + 1, grid.columns) : i - (i > 0 ? 1 : 0);
-    const std::uint32_t y = (corner & 2U) != 0 ? std::min(j + 1, grid.rows) : j - (j > 0 ? 1 : 0);
-    const std::uint32_t z = (corner & 4U) != 0 ? std::min(k + 1, grid.slices) : k - (k > 0 ? 1 : 0);
-    region.radius = std::max(region.radius, length(grid.vertex_position(grid.vertex_id(x, y, z)) - region.center));
-  }
-  return region;
-}
-
-/// (senders.1) Unoccluded irradiance that a sender may give in the region, luminance.
-float unoccluded(const SenderNode& node, const ReceiverRegion& region) {
-  const Vec3 offset = region.center - node.bounds.center();
-  const float reach = std::max(length(offset), length(node.bounds.size()) / 2);
-  return node.power / (kPi * std::max(reach * reach, 1e-30F));
-}
 
 Observation observe(const VertexContext& context, const std::vector<ReceiverPoint>& receivers, std::uint32_t id,
                     std::uint32_t samples, float near_distance, std::uint64_t key) {
@@ -106,51 +84,6 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
   return seen;
 }
 
-/// The bin of a direction on the octahedron.
-std::size_t lobe_of(const Vec3& d) {
-  const float sum = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
-  float x = d.x / sum, y = d.y / sum;
-  if (d.z < 0) {
-    const float folded_x = (1 - std::fabs(y)) * std::copysign(1.0F, x);
-    y = (1 - std::fabs(x)) * std::copysign(1.0F, y);
-    x = folded_x;
-  }
-  const auto bin = [](float t) { return std::clamp(static_cast<int>((t + 1) / 2 * kLobesPerSide), 0, kLobesPerSide - 1); };
-  return static_cast<std::size_t>(bin(y) * kLobesPerSide + bin(x));
-}
-
-/// Sums interpolated senders into lobes; each lobe's direction is the irradiance-weighted mean.
-class LobeSums {
- public:
-  void add(const Vec3& direction, const Spectrum& direct, const Spectrum& indirect) {
-    Sum& sum = sums_[lobe_of(direction)];
-    sum.direction += to_double(direction) * static_cast<double>(luminance(direct) + luminance(indirect));
-    sum.direct += SpectrumD(direct);
-    sum.indirect += SpectrumD(indirect);
-  }
-  std::vector<Lobe> lobes() const {
-    std::vector<Lobe> result;
-    for (const Sum& sum : sums_) {
-      if (!(length(sum.direction) > 0)) continue;
-      result.push_back({to_float(normalize(sum.direction)), Spectrum(sum.direct), Spectrum(sum.indirect)});
-    }
-    return result;
-  }
-
- private:
-  struct Sum {
-    Vec3d direction{0, 0, 0};
-    SpectrumD direct, indirect;
-  };
-  std::array<Sum, kLobesPerSide * kLobesPerSide> sums_;
-};
-
-float mean_reflectance(const std::vector<ReceiverPoint>& receivers) {
-  float sum = 0;
-  for (const ReceiverPoint& receiver : receivers) sum += receiver.reflectance;
-  return sum / static_cast<float>(receivers.size());
-}
-
 /// A sender as its first samples judge it: the largest changes of radiance that interpolating it may cause.
 struct Judged {
   std::uint32_t node = 0;
@@ -180,9 +113,11 @@ Judged judge(const SenderNode& node, std::uint32_t id, std::uint32_t samples, co
 }
 
 /// Direct light makes the contrasts that people see, and an emitter that all receivers met see may be hidden from a point
-/// beside them: what emits is interpolated only where its unoccluded light is below the threshold.
-void distrust_emitter(const SenderNode& node, const ReceiverRegion& region, float reflectance, Judged& judged) {
-  if (is_black(node.emitted_power)) return;
+/// beside them: what emits is interpolated only where its unoccluded light is below the threshold. So are bright surfaces that are
+/// senders among others which are not: they glow like lamps.
+void distrust_bright(const SenderNode& node, SenderChoice choice, const ReceiverRegion& region, float reflectance,
+                     Judged& judged) {
+  if (is_black(node.emitted_power) && choice == SenderChoice::kAll) return;
   const float unoccluded_radiance = reflectance * kInversePi * unoccluded(node, region);
   judged.form_factor_change = std::max(judged.form_factor_change, unoccluded_radiance);
   judged.visibility_change = std::max(judged.visibility_change, unoccluded_radiance);
@@ -209,6 +144,12 @@ float critical_change(const std::vector<Judged>& senders, float threshold) {
   return threshold;
 }
 
+void count_class(const CriticalSender& sender, SenderClasses& classes) {
+  const bool form_factor = sender.resample_form_factor != 0, visibility = sender.resample_visibility != 0;
+  if (form_factor) ++(visibility ? classes.both : classes.form_factor);
+  else ++(visibility ? classes.visibility : classes.interpolated);
+}
+
 /// What is interpolated comes from samples that had no part in the decision to interpolate: among senders judged by four
 /// lines, those whose lines happened to miss are interpolated and those whose lines hit are resampled, so the deciding
 /// samples are biased towards the dark.
@@ -221,14 +162,32 @@ void measure(const SenderNode& node, const Observation& seen, CriticalSender& se
 
 }  // namespace
 
+ReceiverRegion region_around(const PerspectiveGrid& grid, std::uint32_t vertex) {
+  ReceiverRegion region{grid.vertex_position(vertex), 0};
+  const auto [i, j, k] = grid.vertex_indices(vertex);
+  for (std::uint32_t corner = 0; corner < 8; ++corner) {
+    const std::uint32_t x = (corner & 1U) != 0 ? std::min(i + 1, grid.columns) : i - (i > 0 ? 1 : 0);
+    const std::uint32_t y = (corner & 2U) != 0 ? std::min(j + 1, grid.rows) : j - (j > 0 ? 1 : 0);
+    const std::uint32_t z = (corner & 4U) != 0 ? std::min(k + 1, grid.slices) : k - (k > 0 ? 1 : 0);
+    region.radius = std::max(region.radius, length(grid.vertex_position(grid.vertex_id(x, y, z)) - region.center));
+  }
+  return region;
+}
+
+float unoccluded(const SenderNode& node, const ReceiverRegion& region) {
+  const Vec3 offset = region.center - node.bounds.center();
+  const float reach = std::max(length(offset), length(node.bounds.size()) / 2);
+  return node.power / (kPi * std::max(reach * reach, 1e-30F));
+}
+
 VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex) {
-  const ReceiverRegion region = region_of(context.grid, vertex);
+  const ReceiverRegion region = region_around(context.grid, vertex);
   const std::vector<ReceiverPoint> receivers = receivers_around(context.grid, context.receivers, vertex, kReceivers);
   const float reflectance = mean_reflectance(receivers);
-  const float max_irradiance = kCutShare * context.settings.threshold * kPi / std::max(reflectance, 1e-3F);
+  const float max_irradiance = kCutShare * context.thresholds[vertex] * kPi / std::max(reflectance, 1e-3F);
   const std::vector<std::uint32_t> senders =
       cut_senders(context.tree, region, max_irradiance, context.settings.max_senders);
-  const float near_distance = context.grid.cell_width(region.center);
+  const float near_distance = radfarm::near_distance(context.tree, context.grid, region.center);
   double total = 0;
   for (const std::uint32_t id : senders) total += static_cast<double>(unoccluded(context.tree.nodes[id], region));
 
@@ -240,9 +199,9 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     const auto samples = std::clamp(static_cast<std::uint32_t>(share * context.settings.vertex_samples), kMinSamples,
                                     kMaxSamples);
     judged.push_back(judge(node, id, samples, observe(context, receivers, id, samples, near_distance, combine(key_of(id), 1)), reflectance));
-    distrust_emitter(node, region, reflectance, judged.back());
+    distrust_bright(node, context.tree.choice, region, reflectance, judged.back());
   }
-  const float threshold = critical_change(judged, context.settings.threshold);
+  const float threshold = critical_change(judged, context.thresholds[vertex]);
 
   VertexSenders result;
   LobeSums lobes;
@@ -256,6 +215,7 @@ VertexSenders vertex_senders(const VertexContext& context, std::uint32_t vertex)
     if (sender.change() > threshold && may_be_near(node, region, near_distance)) {
       critical.resample_form_factor = critical.resample_visibility = 1;
     }
+    count_class(critical, result.classes);
     critical.outline = outline_of(context.tree, sender.node);
     critical.prior = sender.prior;
     critical.visibility = sender.visibility;

@@ -2,15 +2,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
-#include "base/stopwatch.h"
 #include "cli/commands.h"
 #include "cli/deliver.h"
+#include "cli/phase_display.h"
 #include "cli/request_flags.h"
 #include "cli/solution_folder.h"
 #include "pipeline/pipeline.h"
@@ -26,27 +25,12 @@ struct BakeFlags {
   RequestFlags request;
 };
 
-/// Says when a phase begins, one line each.
-class PhaseLog {
- public:
-  void operator()(std::string_view phase) {
-    const std::lock_guard lock(mutex_);
-    if (phase == last_) return;
-    last_ = phase;
-    std::fprintf(stderr, "%7.1f s  %s\n", watch_.wall_seconds(), last_.c_str());
-  }
-
- private:
-  std::mutex mutex_;
-  std::string last_;
-  Stopwatch watch_;
-};
-
 /// Until there is something to write, a signal ends the process.
 Result<Baked> bake_or_end(const std::filesystem::path& scene, const RenderRequest& request,
-                          const std::optional<float>& exposure_ev, const PrepareContext& context) {
+                          const std::optional<float>& exposure_ev, const SolutionStore& store) {
   const EndOnSignal interrupted("radfarm");
-  return bake(scene, request, exposure_ev, context);
+  PhaseDisplay display(Progress::style_for_stderr(), JobState::kPreparing);
+  return bake(scene, request, exposure_ev, {store, display.progress()});
 }
 
 Result<ExitCode> run_bake(const BakeFlags& flags) {
@@ -59,10 +43,8 @@ Result<ExitCode> run_bake(const BakeFlags& flags) {
   if (!exposure) return usage_error(exposure.error());
   RADFARM_TRY_STATUS(check_folder(flags.output));
   locate_files(*request);
-  PhaseLog log;
-  const Progress progress([&log](std::string_view phase, std::uint64_t, std::uint64_t) { log(phase); });
   const SolutionStore store(flags.no_cache ? "" : solution_folder(), kSolutionBytes);
-  RADFARM_TRY(const Baked baked, bake_or_end(flags.scene, *request, *exposure, {store, progress}));
+  RADFARM_TRY(const Baked baked, bake_or_end(flags.scene, *request, *exposure, store));
   RADFARM_TRY_STATUS(write_file_atomically(flags.output, baked.glb));
   std::printf("%s: %zu elements, %zu triangles, %.1f MB, exposure %+.2f EV\n", flags.output.c_str(), baked.elements,
               baked.triangles, static_cast<double>(baked.glb.size()) / 1e6, static_cast<double>(baked.exposure_ev));

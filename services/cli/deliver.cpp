@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "base/file.h"
+#include "frame/aov_picture.h"
+#include "frame/aovs.h"
 #include "image/exr.h"
 #include "image/png.h"
 #include "image/tone_map.h"
@@ -18,11 +21,12 @@
 namespace radfarm::cli {
 namespace {
 
-Result<std::vector<std::byte>> download(FarmClient& client, const JobStatus& job, const std::string& name) {
+Result<std::vector<std::byte>> download(FarmClient& client, const JobStatus& job, const std::string& name,
+                                        const radfarm::Progress& progress) {
   const auto found = std::find_if(job.artifacts.begin(), job.artifacts.end(),
                                   [&](const Artifact& artifact) { return artifact.name == name; });
   if (found == job.artifacts.end()) return fail(Code::kDataLoss, "job " + job.id + " left no " + name);
-  return client.blobs().download(found->blob.digest, limits::kBlobBytes);
+  return client.blobs().download(found->blob.digest, limits::kBlobBytes, progress);
 }
 
 Status write_png(std::span<const std::byte> exr, const Outputs& outputs) {
@@ -30,6 +34,39 @@ Status write_png(std::span<const std::byte> exr, const Outputs& outputs) {
   RADFARM_TRY(const std::optional<float> exposure, parse_exposure(outputs.exposure));
   RADFARM_TRY(const std::vector<std::byte> png, encode_png(image, exposure ? *exposure : auto_exposure(image)));
   return write_file_atomically(outputs.png, png);
+}
+
+/// FOLDER/NAME.png of each AOV of the image.
+Status write_aov_pictures(std::span<const std::byte> exr, const std::filesystem::path& folder) {
+  RADFARM_TRY(const Image image, decode_exr(exr));
+  const AovSet aovs = aovs_of(image);
+  if (aovs == 0) return fail(Code::kFailedPrecondition, "--aov-png: the image has no AOVs; render it with --aov");
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (error) return fail(Code::kPermissionDenied, folder.string() + ": cannot be created: " + error.message());
+  for (std::size_t k = 0; k < kAovCount; ++k) {
+    const auto aov = static_cast<Aov>(k);
+    if (!contains(aovs, aov)) continue;
+    const AovPicture picture = draw_aov(image, aov);
+    const std::filesystem::path file = folder / (to_string(aov) + ".png");
+    RADFARM_TRY(const std::vector<std::byte> png, encode_png(static_cast<std::uint32_t>(image.width),
+                                                             static_cast<std::uint32_t>(image.height), picture.pixels));
+    RADFARM_TRY_STATUS(write_file_atomically(file, png));
+    std::printf("%-28s %s\n", file.filename().c_str(), picture.legend.c_str());
+  }
+  return {};
+}
+
+Status check_writable(const std::filesystem::path& folder, const std::filesystem::path& for_what) {
+  if (::access(folder.c_str(), W_OK) == 0) return {};
+  return fail(Code::kPermissionDenied, for_what.string() + ": cannot write into " + folder.string());
+}
+
+/// A folder that is there already, or that can be made.
+Status check_picture_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (folder.empty() || !std::filesystem::is_directory(folder, ignored)) return check_folder(folder);
+  return check_writable(folder, folder);
 }
 
 }  // namespace
@@ -52,14 +89,14 @@ Status check_folder(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, ignored)) {
     return fail(Code::kInvalidArgument, file.string() + ": is a folder, must be a file");
   }
-  if (::access(folder.c_str(), W_OK) == 0) return {};
-  return fail(Code::kPermissionDenied, file.string() + ": cannot write into " + folder.string());
+  return check_writable(folder, file);
 }
 
 void add_output_flags(CLI::App& app, Outputs& outputs) {
   app.add_option("-o,--output", outputs.exr, "OUT.exr: scene-linear image with its layers")->required();
   app.add_option("--png", outputs.png, "OUT.png: for viewing");
   app.add_option("--exposure", outputs.exposure, "EV (stops) or auto, for --png");
+  app.add_option("--aov-png", outputs.aov_png, "FOLDER for a false-colour NAME.png of each layer of --aov");
   app.add_option("--report", outputs.report, "OUT.json: settings, effects, times, counts, measured error");
 }
 
@@ -81,22 +118,34 @@ Status check_usage(const Outputs& outputs) {
   return {};
 }
 
+Status check_usage(const Outputs& outputs, const RenderRequest& request) {
+  if (!outputs.aov_png.empty() && request.aov.empty()) {
+    return fail(Code::kInvalidArgument, "--aov-png: needs --aov, such as --aov all");
+  }
+  return check_usage(outputs);
+}
+
 Status check_folders(const Outputs& outputs) {
   RADFARM_TRY_STATUS(check_folder(outputs.exr));
   RADFARM_TRY_STATUS(check_folder(outputs.png));
+  RADFARM_TRY_STATUS(check_picture_folder(outputs.aov_png));
   return check_folder(outputs.report);
 }
 
-Result<nlohmann::json> deliver(FarmClient& client, const JobStatus& job, const Outputs& outputs) {
-  RADFARM_TRY(const std::vector<std::byte> text, download(client, job, "report.json"));
+Result<nlohmann::json> deliver(FarmClient& client, const JobStatus& job, const Outputs& outputs,
+                               const radfarm::Progress& progress) {
+  RADFARM_TRY(const std::vector<std::byte> text, download(client, job, "report.json", progress));
   const auto* const begin = reinterpret_cast<const char*>(text.data());
   nlohmann::json report = nlohmann::json::parse(begin, begin + text.size(), nullptr, /*allow_exceptions=*/false);
   if (!report.is_object()) return fail(Code::kDataLoss, "job " + job.id + ": its report is not JSON");
   report["image"]["path"] = outputs.exr.string();
 
-  RADFARM_TRY(const std::vector<std::byte> exr, download(client, job, "image.exr"));
+  RADFARM_TRY(const std::vector<std::byte> exr, download(client, job, "image.exr", progress));
+  RADFARM_TRY_STATUS(progress.check());
+  progress.report("write");
   RADFARM_TRY_STATUS(write_file_atomically(outputs.exr, exr));
   if (!outputs.png.empty()) RADFARM_TRY_STATUS(write_png(exr, outputs));
+  if (!outputs.aov_png.empty()) RADFARM_TRY_STATUS(write_aov_pictures(exr, outputs.aov_png));
   if (!outputs.report.empty()) {
     const std::string dumped = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     RADFARM_TRY_STATUS(write_file_atomically(outputs.report, dumped));

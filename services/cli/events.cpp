@@ -5,6 +5,7 @@
 namespace radfarm::cli {
 
 void Events::interrupt() {
+  stop_.request_stop();
   const std::lock_guard lock(mutex_);
   seen_.interrupted = fresh_ = true;
   changed_.notify_all();
@@ -44,11 +45,6 @@ Events::Seen Events::wait(std::optional<std::chrono::steady_clock::time_point> d
   seen_.job.reset();
   fresh_ = false;
   return seen;
-}
-
-bool Events::interrupted() {
-  const std::lock_guard lock(mutex_);
-  return seen_.interrupted;
 }
 
 }  // namespace radfarm::cli

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 
 #include "base/status.h"
 #include "rpc/messages.h"
@@ -28,13 +29,15 @@ class Events {
 
   /// What happened since the last look; waits for something to happen, until `deadline`.
   Seen wait(std::optional<std::chrono::steady_clock::time_point> deadline);
-  bool interrupted();
+  /// Is stopped by interrupt().
+  std::stop_token interruption() const { return stop_.get_token(); }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
   Seen seen_;
   bool fresh_ = false;
+  std::stop_source stop_;
 };
 
 }  // namespace radfarm::cli

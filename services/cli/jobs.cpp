@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/deliver.h"
 #include "cli/follow.h"
+#include "process/end_on_signal.h"
 #include "process/signals.h"
 #include "rpc/channel.h"
 
@@ -61,6 +62,7 @@ void print_json(const nlohmann::json& json) {
 }
 
 Result<ExitCode> list(const JobsFlags& flags) {
+  const EndOnSignal interrupted("radfarm");
   FarmClient client(flags.server);
   RADFARM_TRY(const std::vector<JobStatus> jobs, client.list());
   nlohmann::json array = nlohmann::json::array();
@@ -83,12 +85,14 @@ Result<ExitCode> show(const JobsFlags& flags, const JobStatus& job) {
 }
 
 Result<ExitCode> get(const JobsFlags& flags) {
+  const EndOnSignal interrupted("radfarm");
   FarmClient client(flags.server);
   RADFARM_TRY(const JobStatus job, client.get(flags.id));
   return show(flags, job);
 }
 
 Result<ExitCode> cancel(const JobsFlags& flags) {
+  const EndOnSignal interrupted("radfarm");
   FarmClient client(flags.server);
   RADFARM_TRY(const JobStatus job, client.cancel(flags.id));
   return show(flags, job);
@@ -114,6 +118,8 @@ Result<ExitCode> wait(const JobsFlags& flags) {
 Result<ExitCode> fetch(const JobsFlags& flags) {
   if (const Status usage = check_usage(flags.outputs); !usage) return usage_error(usage.error());
   RADFARM_TRY_STATUS(check_folders(flags.outputs));
+  Events events;
+  const SignalWatcher signals({SIGINT, SIGTERM}, [&](int) { events.interrupt(); });
   FarmClient client(flags.server);
   RADFARM_TRY(const JobStatus job, client.get(flags.id));
   if (!is_terminal(job.state)) {
@@ -121,7 +127,8 @@ Result<ExitCode> fetch(const JobsFlags& flags) {
                 "job " + job.id + " is " + to_string(job.state) + "; see `radfarm jobs wait`");
   }
   RADFARM_TRY_STATUS(check_succeeded(job));
-  RADFARM_TRY([[maybe_unused]] const nlohmann::json report, deliver(client, job, flags.outputs));
+  const radfarm::Progress progress({}, events.interruption());
+  RADFARM_TRY([[maybe_unused]] const nlohmann::json report, deliver(client, job, flags.outputs, progress));
   return ExitCode::kDone;
 }
 

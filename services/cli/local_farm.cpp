@@ -15,7 +15,8 @@ namespace radfarm::cli {
 namespace {
 
 constexpr std::chrono::seconds kStartLimit{30};
-constexpr std::chrono::seconds kEndLimit{5};
+// A coordinator that assembles an image goes on until it is done; nobody waits for that.
+constexpr std::chrono::milliseconds kEndLimit{200};
 // Short, because a worker of this machine that falls silent is dead; renewed four times in between.
 constexpr const char* kLeaseMs = "10000";
 

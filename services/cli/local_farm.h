@@ -23,7 +23,7 @@ class LocalFarm {
   static Result<LocalFarm> start(const Options& options);
   LocalFarm(LocalFarm&&) = default;
   LocalFarm& operator=(LocalFarm&&) = delete;
-  /// Asks all to end, waits some seconds, then kills.
+  /// Asks all to end, waits a moment, then kills.
   ~LocalFarm();
 
   const std::string& address() const { return address_; }

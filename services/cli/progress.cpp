@@ -37,7 +37,8 @@ std::string verb(JobState state) {
 std::string phase_text(const JobPhase& phase) {
   if (phase.name.empty()) return "";
   std::string text = phase.name.substr(0, kPhaseWidth);
-  if (phase.total > 0) text += " " + std::to_string(phase.done) + "/" + std::to_string(phase.total);
+  if (phase.total > 0 || phase.done > 0) text += " " + std::to_string(phase.done);
+  if (phase.total > 0) text += "/" + std::to_string(phase.total);
   return text + "  ";
 }
 

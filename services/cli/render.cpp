@@ -12,6 +12,7 @@
 #include "cli/deliver.h"
 #include "cli/follow.h"
 #include "cli/local_farm.h"
+#include "cli/phase_display.h"
 #include "cli/request_flags.h"
 #include "cli/solution_folder.h"
 #include "cli/upload.h"
@@ -41,6 +42,11 @@ ExitCode exit_code_of(const nlohmann::json& report) {
   return missed ? ExitCode::kTargetNotMet : ExitCode::kDone;
 }
 
+Result<JobStatus> submit(FarmClient& client, const RenderFlags& flags, const RenderRequest& request, const Events& events) {
+  PhaseDisplay submitting(Progress::style_for_stderr(), JobState::kQueued);
+  return submit_scene(client, flags.scene, request, submitting.progress(events.interruption()));
+}
+
 Result<nlohmann::json> render(const RenderFlags& flags, const RenderRequest& request, Events& events) {
   const SignalWatcher signals({SIGINT, SIGTERM, SIGCHLD}, [&](int signal) {
     if (signal == SIGCHLD) return events.child_ended();
@@ -49,7 +55,7 @@ Result<nlohmann::json> render(const RenderFlags& flags, const RenderRequest& req
   RADFARM_TRY_STATUS(check_folders(flags.outputs));
   RADFARM_TRY(LocalFarm farm, LocalFarm::start(farm_options(flags)));
   FarmClient client(farm.address());
-  RADFARM_TRY(const JobStatus job, submit_scene(client, flags.scene, request, events));
+  RADFARM_TRY(const JobStatus job, submit(client, flags, request, events));
   Progress progress(Progress::style_for_stderr());
   FollowOptions options;
   options.on_interrupt = FollowOptions::OnInterrupt::kCancelJob;
@@ -58,13 +64,14 @@ Result<nlohmann::json> render(const RenderFlags& flags, const RenderRequest& req
   progress.finish();
   if (!done) return tl::unexpected(done.error());
   RADFARM_TRY_STATUS(check_succeeded(*done));
-  return deliver(client, *done, flags.outputs);
+  PhaseDisplay delivering(Progress::style_for_stderr(), JobState::kSucceeded);
+  return deliver(client, *done, flags.outputs, delivering.progress(events.interruption()));
 }
 
 Result<ExitCode> run_render(const RenderFlags& flags) {
   const Result<RenderRequest> request = parse_request(flags.request);
   if (!request) return usage_error(request.error());
-  if (const Status usage = check_usage(flags.outputs); !usage) return usage_error(usage.error());
+  if (const Status usage = check_usage(flags.outputs, *request); !usage) return usage_error(usage.error());
   // The farm's own chatter is for whoever debugs it: RADFARM_LOG=info shows it.
   ::setenv("RADFARM_LOG", "warn", /*overwrite=*/0);
   Events events;

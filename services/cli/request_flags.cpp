@@ -101,12 +101,17 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--tile", flags.tile, "pixels a side of a task; never changes the image");
   app.add_flag("--no-audit", flags.no_audit, "do not measure the error");
   app.add_flag("--mesh", flags.mesh, "draw the edges of the elements; with --integrator radiosity, and without an audit");
+  app.add_option("--aov", flags.aov,
+                 "LIST of layers besides light, or all: albedo, normal, depth, irradiance, samples.camera, samples.visibility, "
+                 "samples.formfactor, variance, classification, grid; docs/formats.md")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--effects", flags.effects, "+id,-id: force effects on or off; see `radfarm explain`");
   app.add_option("--env", flags.env, "MAP.hdr, MAP.exr or sky:KEY=VALUE,...: light from all around; docs/sky.md");
   app.add_option("--ies", flags.ies, "NAME=FILE: a light of the scene shines as an IES file says; may be repeated");
   app.add_option("--lens-diameter", flags.lens_diameter, "metres; what is out of focus blurs; default 0, a pinhole");
   app.add_option("--focus-distance", flags.focus_distance, "metres from the lens to what is sharp; default --look-at");
-  app.add_option("--gather", flags.gather, "default");
+  app.add_option("--gather", flags.gather, "default, or paper: grid final gather as paper 1 has it, for comparison");
   app.add_option("--criterion", flags.criterion, "uniform");
   flags.unbuilt.add_to(app);
 }
@@ -114,12 +119,14 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
 Result<RenderRequest> parse_request(const RequestFlags& flags) {
   RADFARM_TRY_STATUS(flags.unbuilt.check());
   RADFARM_TRY_STATUS(check_built("--integrator", flags.integrator));
-  RADFARM_TRY_STATUS(check_built("--gather", flags.gather));
   RADFARM_TRY_STATUS(check_built("--criterion", flags.criterion));
   RenderRequest request;
   const auto integrator = integrator_from_string(flags.integrator);
   if (!integrator) return fail(Code::kInvalidArgument, "--" + integrator.error().message);
   request.integrator = *integrator;
+  const auto gather = gather_from_string(flags.gather);
+  if (!gather) return fail(Code::kInvalidArgument, "--" + gather.error().message);
+  request.gather = *gather;
   const auto quality = quality_from_string(flags.quality);
   if (!quality) return fail(Code::kInvalidArgument, "--" + quality.error().message);
   request.quality = *quality;
@@ -137,6 +144,7 @@ Result<RenderRequest> parse_request(const RequestFlags& flags) {
   request.threshold = flags.threshold;
   request.audit = !flags.no_audit;
   request.mesh = flags.mesh;
+  request.aov = flags.aov;
   request.effects = flags.effects;
   request.env = flags.env;
   RADFARM_TRY_STATUS(parse_ies(flags.ies, request));

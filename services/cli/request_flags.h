@@ -22,7 +22,7 @@ struct RequestFlags {
   std::optional<int> samples;
   std::optional<float> link_error, threshold, lens_diameter, focus_distance;
   std::string env;
-  std::vector<std::string> ies;
+  std::vector<std::string> ies, aov;
   std::uint64_t seed = 1;
   int tile = 32;
   bool no_audit = false, mesh = false;

@@ -28,7 +28,7 @@ Result<ExitCode> submit(const SubmitFlags& flags, const RenderRequest& request) 
   const SignalWatcher signals({SIGINT, SIGTERM}, [&](int) { events.interrupt(); });
   if (flags.wait) RADFARM_TRY_STATUS(check_folders(flags.outputs));
   FarmClient client(flags.server);
-  RADFARM_TRY(const JobStatus job, submit_scene(client, flags.scene, request, events));
+  RADFARM_TRY(const JobStatus job, submit_scene(client, flags.scene, request, radfarm::Progress({}, events.interruption())));
   std::printf("%s\n", job.id.c_str());
   std::fflush(stdout);
   if (!flags.wait) return ExitCode::kDone;
@@ -37,7 +37,7 @@ Result<ExitCode> submit(const SubmitFlags& flags, const RenderRequest& request) 
   progress.finish();
   if (!done) return tl::unexpected(done.error());
   RADFARM_TRY_STATUS(check_succeeded(*done));
-  RADFARM_TRY(const nlohmann::json report, deliver(client, *done, flags.outputs));
+  RADFARM_TRY(const nlohmann::json report, deliver(client, *done, flags.outputs, radfarm::Progress({}, events.interruption())));
   std::fputs(closing_table(report).c_str(), stdout);
   return ExitCode::kDone;
 }
@@ -45,7 +45,7 @@ Result<ExitCode> submit(const SubmitFlags& flags, const RenderRequest& request) 
 Result<ExitCode> run_submit(const SubmitFlags& flags) {
   const Result<RenderRequest> request = parse_request(flags.request);
   if (!request) return usage_error(request.error());
-  if (const Status usage = check_usage(flags.outputs); !usage) return usage_error(usage.error());
+  if (const Status usage = check_usage(flags.outputs, *request); !usage) return usage_error(usage.error());
   if (const Status address = rpc::check_address(flags.server, "--server"); !address)
     return usage_error(address.error());
   return submit(flags, *request);

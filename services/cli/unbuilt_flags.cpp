@@ -15,10 +15,8 @@ constexpr std::array kUnbuilt = {
     Unbuilt{"--time", "", "use --quality"},
     Unbuilt{"--photons", "", "use --integrator gather or path-trace"},
     Unbuilt{"--radius", "", "use --integrator gather or path-trace"},
-    Unbuilt{"--aov", "", "beauty, emission, direct and indirect are always written"},
     Unbuilt{"--integrator", "paths", "use auto, radiosity, gather, full-gather or path-trace"},
     Unbuilt{"--integrator", "photon-map", "use auto, radiosity, gather, full-gather or path-trace"},
-    Unbuilt{"--gather", "paper", "use default"},
     Unbuilt{"--criterion", "CC", "use uniform"},
     Unbuilt{"--criterion", "VAR", "use uniform"},
     Unbuilt{"--criterion", "KL", "use uniform"},
@@ -55,9 +53,6 @@ Status UnbuiltFlags::check() const {
 Status check_built(const std::string& flag, const std::string& value) {
   for (const Unbuilt& unbuilt : kUnbuilt) {
     if (flag == unbuilt.flag && value == unbuilt.value) return refuse(unbuilt);
-  }
-  if (flag == "--gather" && value != "default") {
-    return fail(Code::kInvalidArgument, "--gather: '" + value + "' is not one of default, paper");
   }
   if (flag == "--criterion" && value != "uniform") {
     return fail(Code::kInvalidArgument,

@@ -70,8 +70,7 @@ void Job::confirm_cancel() {
 Status Job::cancel() {
   if (state_ == JobState::kCancelling || state_ == JobState::kCancelled) return {};
   if (is_terminal(state_)) return radfarm::fail(Code::kFailedPrecondition, "job " + id_ + " is " + to_string(state_));
-  const bool busy = state_ == JobState::kPreparing || state_ == JobState::kAssembling;
-  enter(busy ? JobState::kCancelling : JobState::kCancelled);
+  enter(state_ == JobState::kPreparing ? JobState::kCancelling : JobState::kCancelled);
   return {};
 }
 

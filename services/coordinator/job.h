@@ -17,8 +17,8 @@ namespace radfarm {
 ///
 ///     QUEUED -> PREPARING -> RENDERING -> ASSEMBLING -> SUCCEEDED
 ///        |          |            |            |
-///        |          +------------|------------+--cancel--> CANCELLING --stopped--> CANCELLED
-///        +-------cancel----------+-----------------------------------------------> CANCELLED
+///        |          +--cancel----|------------|--> CANCELLING --stopped--> CANCELLED
+///        +-------cancel----------+------------+--------------------------> CANCELLED
 ///     any of the first four: FAILED
 ///
 /// Invariants: a terminal job has no live lease; results_[i] is the committed bytes of tasks_[i] or empty.

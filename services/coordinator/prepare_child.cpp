@@ -76,6 +76,7 @@ Status prepare_files(const PrepareChildOptions& options) {
   PhasePrinter print;
   const PrepareContext context{{options.solutions, options.solution_bytes}, Progress(std::ref(print))};
   RADFARM_TRY(const PreparedFiles files, prepare(options.scene, request, context));
+  context.progress.report("store");
   RADFARM_TRY_STATUS(write_file_atomically(options.out / kSceneFile, files.scene));
   RADFARM_TRY_STATUS(write_file_atomically(options.out / kSolutionFile, files.solution));
   return write_file_atomically(options.out / kViewFile, files.view);

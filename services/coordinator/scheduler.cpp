@@ -252,7 +252,7 @@ void Scheduler::run_assembly(const std::string& id) {
   {
     const std::lock_guard lock(mutex_);
     const Result<Entry*> entry = find(id);
-    if (stopping_ || !entry) return;
+    if (stopping_ || !entry || (*entry)->job.state() != JobState::kAssembling) return;
     inputs = (*entry)->job.inputs();
     results = (*entry)->job.take_results();
     facts.workers = (*entry)->job.worker_facts();

@@ -44,7 +44,7 @@ std::vector<VisibilityRay> draw_rays(const GatherContext& context, const Film& f
             context.senders.at(choose_vertex(interpolate(context.senders.grid(), point.position), random.uniform()));
         std::vector<double> weights;
         for (const CriticalSender& c : senders.critical) {
-          const float near = context.senders.grid().cell_width(point.position);
+          const float near = near_distance(context.tree, context.senders.grid(), point.position);
           const float likely = judge_irradiance(c.outline, point.position, point.shading_normal, near).likely;
           weights.push_back(c.resample_visibility != 0 ? static_cast<double>(c.prior * likely) : 0);
         }
@@ -74,18 +74,19 @@ int run(const char* path, int width) {
   if (!camera) return std::fprintf(stderr, "%s\n", camera.error().message.c_str()), 3;
   Settings settings = resolve_settings(request, camera->camera);
   const RadiositySolution solution = solve_radiosity(world, settings.radiosity, 1);
-  settings.senders.threshold = threshold_share(request.quality) * mean_radiance(solution);
   const SenderTree tree = make_sender_tree(solution);
-  const SenderGrid grid(classify_visible(world, tree, camera->camera, settings.width, settings.height, settings.senders, 1),
+  const SenderGrid grid(classify_visible(world, tree, camera->camera, settings.width, settings.height, settings.senders, 1).file,
                         world, tree, settings.senders, 1);
-  const SenderLookup lookup(world, tree);
+  const ReflectorLookup lookup(world, tree);
   const GatherContext context{world, tree, lookup, grid, settings.senders};
   const Film film{camera->camera, settings.width, settings.height, 1};
 
   Counters counters;
   const double gather_start = thread_cpu_seconds();
-  render_tile(film, {0, 0, film.width, film.height}, settings.camera_samples,
-              [&](const Ray& ray, const PixelSampler& sampler, Counters& c) { return gather_radiance(context, ray, sampler, c); },
+  render_tile(film, {0, 0, film.width, film.height}, {settings.camera_samples, settings.camera_samples, 0},
+              [&](const Ray& ray, const PixelSampler& sampler, Counters& c, FirstSurface*) {
+                return gather_radiance(context, ray, sampler, c);
+              },
               counters);
   const double gather_seconds = thread_cpu_seconds() - gather_start;
 

@@ -30,8 +30,7 @@ ChildProcess FarmTest::start_worker(const std::string& name) {
 }
 
 std::string FarmTest::submit(const std::filesystem::path& scene_file, const RenderRequest& request) {
-  cli::Events events;
-  const Result<JobStatus> job = cli::submit_scene(*client_, scene_file, request, events);
+  const Result<JobStatus> job = cli::submit_scene(*client_, scene_file, request);
   EXPECT_TRUE(job) << job.error().message;
   return job ? job->id : "";
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "image/exr.h"
 #include "integration/processes.h"
 #include "process/child_process.h"
 
@@ -56,6 +57,63 @@ TEST_F(RenderTest, TheImageDependsOnNeitherWorkersNorThreadsNorTiles) {
       if (digest.empty()) digest = found;
       EXPECT_EQ(found, digest) << workers << " workers, tiles of " << tile;
     }
+  }
+}
+
+/// Renders with AOVs.
+class AovTest : public RenderTest {
+ protected:
+  /// The image of a small render with more flags.
+  Image rendered(const std::vector<std::string>& more) {
+    std::vector<std::string> flags = {scene("cornell.gltf"), "-o", output("a.exr"), "--size", "32x24", "--samples", "4",
+                                      "--quality",           "preview", "--no-audit"};
+    flags.insert(flags.end(), more.begin(), more.end());
+    EXPECT_EQ(run(flags), (Exit{false, 0}));
+    const std::string bytes = read_file(output("a.exr"), 1 << 24).value_or("");
+    return decode_exr(std::as_bytes(std::span(bytes))).value_or(Image());
+  }
+};
+
+TEST_F(AovTest, AreLayersThatChangeNoLightWhoeverRenders) {
+  for (const char* integrator : {"gather", "path-trace", "radiosity"}) {
+    const Image without = rendered({"--integrator", integrator});
+    const Image with = rendered({"--integrator", integrator, "--aov", "all", "--workers", "1", "--tile", "9"});
+    for (const auto& [name, values] : without.channels) EXPECT_EQ(with.channels.at(name), values) << name;
+    EXPECT_GE(with.channels.size(), without.channels.size() + 13) << integrator;
+    for (const float samples : with.channels.at("samples.camera")) EXPECT_EQ(samples, 4);
+    const Image again = rendered({"--integrator", integrator, "--aov", "all", "--workers", "2", "--tile", "32"});
+    EXPECT_EQ(again.channels, with.channels) << integrator;
+  }
+}
+
+TEST_F(AovTest, ArePicturesOnRequest) {
+  rendered({"--aov", "depth,normal", "--aov", "grid", "--aov-png", output("pictures")});
+  for (const char* name : {"depth", "normal", "grid"}) {
+    EXPECT_EQ(read_file(output("pictures/") + name + ".png", 1 << 24)->substr(1, 3), "PNG");
+  }
+  EXPECT_FALSE(std::filesystem::exists(output("pictures/albedo.png")));
+}
+
+TEST_F(AovTest, WhatCannotBeGivenIsExitCode2) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--aov", "normals"}, {"--aov", "masking"}, {"--aov", "grid", "--integrator", "path-trace"}, {"--aov-png", output("x")}};
+  for (std::vector<std::string> flags : wrong) {
+    flags.insert(flags.begin(), {scene("cornell.gltf"), "-o", output("a.exr")});
+    EXPECT_EQ(run(flags), (Exit{false, 2})) << flags.back();
+  }
+}
+
+TEST_F(RenderTest, ThePapersGatherDependsOnNeitherWorkersNorTiles) {
+  std::string digest;
+  for (const auto& [workers, tile] : {std::pair("1", "64"), std::pair("2", "8"), std::pair("3", "17")}) {
+    const Exit exit = run({scene("cornell.gltf"), "-o", output("a.exr"), "--report", output("a.json"), "--size", "50x40",
+                           "--samples", "2", "--quality", "preview", "--gather", "paper", "--workers", workers, "--tile", tile});
+    ASSERT_EQ(exit, (Exit{false, 0}));
+    const nlohmann::json json = report("a.json");
+    EXPECT_EQ(json["settings"]["resolved"]["senders"]["gather"], "paper");
+    const std::string found = json["image"]["digest"];
+    if (digest.empty()) digest = found;
+    EXPECT_EQ(found, digest) << workers << " workers, tiles of " << tile;
   }
 }
 

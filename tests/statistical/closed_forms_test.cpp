@@ -106,6 +106,29 @@ TEST(ClosedForms, O9FurnacesOfPaths) {
   expect_furnace(Furnace::kBox, 0.999F, 4);
 }
 
+/// A furnace of which nothing emits, lit by E_spec = 1 on all that light reaches: E = 1 / (1 - rho).
+void expect_specular_furnace(test::Furnace shape, float reflectance, std::uint32_t hits) {
+  ClosedForm form = test::furnace(shape, reflectance);
+  SCOPED_TRACE(form.name + (hits == 0 ? ", links" : ", paths"));
+  for (Material& material : form.scene.materials) material.emission = Spectrum();
+  const World world(std::move(form.scene));
+  std::vector<Spectrum> brought(SideNumbers(world.scene).count);
+  for (std::size_t s = 0; s < brought.size(); s += 2) brought[s] = Spectrum(1.0F);
+  const RadiositySolution solution = solve_radiosity({world, brought}, with(1e-2F, hits), 1);
+  const double area = static_cast<double>(solution.hierarchy.nodes[0].area), truth = area * form.truth;  // lm that arrive
+  EXPECT_NEAR(luminance(SpectrumD(solution.reflected_power[0])), static_cast<double>(reflectance) * truth, 0.01 * truth);
+  EXPECT_NEAR(solution.energy.emitted, area, 1e-5 * area);
+  EXPECT_NEAR(solution.energy.absorbed, area, 0.01 * area);
+}
+
+TEST(ClosedForms, O9FurnacesOfSpecularLight) {
+  using test::Furnace;
+  for (const std::uint32_t hits : {0U, 4U}) {
+    for (const Furnace shape : {Furnace::kBox, Furnace::kSphere, Furnace::kCluttered}) expect_specular_furnace(shape, 0.5F, hits);
+    expect_specular_furnace(Furnace::kBox, 0.9F, hits);
+  }
+}
+
 TEST(ClosedForms, TheFormulasHaveTheirGoldenValues) {
   // ALGORITHMS.md 3.1, to the digits printed there.
   EXPECT_NEAR(test::parallel_rectangles(1, 1, 1), 0.1998248957, 1e-10);

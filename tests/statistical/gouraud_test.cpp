@@ -28,8 +28,8 @@ TEST_P(GouraudOf, HasTheMeanLightOfAPathTrace) {
       make_element_mesh(world, solution.hierarchy, gather_irradiance(world, solution, kGatherRays, film.seed));
   const SideNumbers sides(world.scene);
   const GouraudContext context{world, mesh, sides};
-  const test::Mean shown = test::mean_of(film, 16, [&](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
-    return gouraud_radiance(context, ray, sampler, counters);
+  const test::Mean shown = test::mean_of(film, 16, [&](const Ray& ray, const PixelSampler& sampler, Counters& c, FirstSurface*) {
+    return gouraud_radiance(context, ray, sampler, c);
   });
   const test::Mean traced = test::path_traced(world, film, 128);
   EXPECT_EQ(shown.dropped, 0U);

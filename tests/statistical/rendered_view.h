@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "estimate/gather.h"
+#include "estimate/paper_gather.h"
 #include "estimate/path_reference.h"
 #include "estimate/render_tile.h"
 #include "scene/world.h"
@@ -26,7 +27,8 @@ inline Mean mean_of(const Film& film, std::uint32_t samples, const SampleRadianc
     Counters counters;
     for (std::size_t y = begin; y < end; ++y) {
       rows[y] =
-          render_tile(film, {0, static_cast<int>(y), film.width, static_cast<int>(y) + 1}, samples, radiance, counters);
+          render_tile(film, {0, static_cast<int>(y), film.width, static_cast<int>(y) + 1}, {samples, samples, 0},
+                      radiance, counters);
     }
   });
   Mean mean;
@@ -48,24 +50,26 @@ inline Mean mean_of(const Film& film, std::uint32_t samples, const SampleRadianc
 }
 
 inline Mean path_traced(const World& world, const Film& film, std::uint32_t samples) {
-  return mean_of(film, samples, [&](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
+  return mean_of(film, samples, [&](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface*) {
     return trace_path(world, ray, sampler, counters);
   });
 }
 
 /// Solved, classified and gathered, at the thresholds of standard quality.
-inline Mean gathered(const World& world, const Film& film, std::uint32_t samples) {
+inline Mean gathered(const World& world, const Film& film, std::uint32_t samples, Gather gather = Gather::kDefault) {
   const RadiositySolution solution = solve_radiosity(world, RadiositySettings(), film.seed);
-  const SenderTree tree = make_sender_tree(solution);
+  const SenderTree tree = make_sender_tree(solution, gather == Gather::kPaper ? SenderChoice::kAll : SenderChoice::kBright);
   SenderSettings settings;
+  settings.gather = gather;
   const float area = solution.hierarchy.nodes.at(0).area / 2;
   settings.threshold = 0.01F * luminance(solution.reflected_power.at(0)) / (kPi * area);
-  const SenderGrid senders(classify_visible(world, tree, film.camera, film.width, film.height, settings, film.seed),
+  const SenderGrid senders(classify_visible(world, tree, film.camera, film.width, film.height, settings, film.seed).file,
                            world, tree, settings, film.seed);
-  const SenderLookup lookup(world, tree);
+  const ReflectorLookup lookup(world, tree);
   const GatherContext context{world, tree, lookup, senders, settings};
-  return mean_of(film, samples, [&](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
-    return gather_radiance(context, ray, sampler, counters);
+  return mean_of(film, samples, [&](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface*) {
+    return gather == Gather::kPaper ? paper_gather_radiance(context, ray, sampler, counters)
+                                    : gather_radiance(context, ray, sampler, counters);
   });
 }
 

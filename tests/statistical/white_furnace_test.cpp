@@ -77,8 +77,8 @@ TEST_P(WhiteFurnace, EveryPixelIsTheSky) {
   const Film film{camera, kSide, kSide, 3};
   Counters counters;
   const std::vector<PixelSums> pixels = render_tile(
-      film, {0, 0, kSide, kSide}, kSamples,
-      [&](const Ray& ray, const PixelSampler& sampler, Counters& c) { return trace_path(world, ray, sampler, c); },
+      film, {0, 0, kSide, kSide}, {kSamples, kSamples, 0},
+      [&](const Ray& ray, const PixelSampler& sampler, Counters& c, FirstSurface*) { return trace_path(world, ray, sampler, c); },
       counters);
   double reflected = 0, mean = 0, variance = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -15,9 +15,21 @@ TEST(CheckUsage, WantsFilesOfTheRightKinds) {
   EXPECT_FALSE(check_usage({"a.exr", {}, {}, "nan"}));
 }
 
+TEST(CheckUsage, PicturesOfAovsNeedAovs) {
+  const Outputs outputs{"a.exr", {}, {}, "auto", "pictures"};
+  RenderRequest request;
+  EXPECT_FALSE(check_usage(outputs, request));
+  request.aov = {"all"};
+  EXPECT_TRUE(check_usage(outputs, request));
+  EXPECT_TRUE(check_usage(outputs)) << "fetch knows no request";
+  EXPECT_TRUE(check_usage({"a.exr", {}, {}, "auto"}, RenderRequest()));
+}
+
 TEST(CheckFolders, SaysBeforeTheRenderThatAFolderIsMissing) {
   EXPECT_FALSE(check_folders({"/nonexistent/a.exr", {}, {}, "auto"}));
   EXPECT_TRUE(check_folders({"/tmp/a.exr", {}, {}, "auto"}));
+  EXPECT_TRUE(check_folders({"/tmp/a.exr", {}, {}, "auto", "/tmp"}));
+  EXPECT_FALSE(check_folders({"/tmp/a.exr", {}, {}, "auto", "/nonexistent/pictures"}));
 }
 
 TEST(CheckSucceeded, TellsFailedFromCancelled) {

@@ -13,6 +13,8 @@ TEST(ProgressLine, ShowsStateBarAndTime) {
   EXPECT_EQ(progress_line(job, 1.25), "preparing  load  1.2 s");
   job.progress.phase = {"radiosity: links", 512, 20480};
   EXPECT_EQ(progress_line(job, 1.25), "preparing  radiosity: links 512/20480  1.2 s");
+  job.progress.phase = {"radiosity: solving", 17, 0};
+  EXPECT_EQ(progress_line(job, 1.25), "preparing  radiosity: solving 17  1.2 s");
   job.progress.phase = {std::string(100, 'x'), ~0ULL, ~0ULL};
   EXPECT_LE(progress_line(job, 1e6).size(), 79U);
   job.progress.phase = {};

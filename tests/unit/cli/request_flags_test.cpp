@@ -102,9 +102,29 @@ TEST(RequestFlags, TheMeshIsDrawnOverTheRadiositySolutionAlone) {
   EXPECT_THAT(error_of("--mesh --integrator gather"), HasSubstr("--integrator radiosity"));
 }
 
+TEST(RequestFlags, AovsAreAListAndTakeNoMoreThanOneWord) {
+  EXPECT_EQ(parse("--aov depth,samples.camera --aov all")->aov, (std::vector<std::string>{"depth", "samples.camera", "all"}));
+  CLI::App app;
+  RequestFlags flags;
+  std::string scene;
+  app.add_option("SCENE", scene);
+  add_request_flags(app, flags);
+  app.parse("--aov depth,normal room.gltf");
+  EXPECT_EQ(scene, "room.gltf");
+  EXPECT_THAT(error_of("--aov normals"), HasSubstr("albedo, normal"));
+  EXPECT_THAT(error_of("--aov grid --integrator path-trace"), HasSubstr("does not give it"));
+}
+
+TEST(RequestFlags, TheGatherIsOursOrThePapers) {
+  EXPECT_EQ(parse("")->gather, Gather::kDefault);
+  EXPECT_EQ(parse("--gather paper")->gather, Gather::kPaper);
+  EXPECT_THAT(error_of("--gather grid"), HasSubstr("--gather"));
+  EXPECT_THAT(error_of("--gather paper --integrator path-trace"), HasSubstr("--gather paper"));
+}
+
 TEST(RequestFlags, WhatIsNotBuiltIsRefusedAndNotIgnored) {
   for (const char* line : {"--error 2%", "--time 60s", "--photons 5", "--radius 1",
-                           "--aov normal", "--gather paper", "--criterion KL",
+                           "--aov masking", "--aov density", "--criterion KL",
                            "--integrator paths", "--integrator photon-map"}) {
     const Result<RenderRequest> request = parse(line);
     ASSERT_FALSE(request) << line;

@@ -78,7 +78,16 @@ TEST(Job, CancelEndsLeasesAtOnceWhileRendering) {
   EXPECT_TRUE(job.cancel()) << "again is fine";
 }
 
-TEST(Job, CancelWaitsForAStepThatCannotStop) {
+TEST(Job, CancelDoesNotWaitForTheAssembly) {
+  Job job = rendering_job(1);
+  const Lease lease = *job.lease("w", kLive, "t1", kNow);
+  ASSERT_EQ(job.commit(header_of(lease, "d"), "w", {}), CommitOutcome::kCommitted);
+  job.start_assembling();
+  ASSERT_TRUE(job.cancel());
+  EXPECT_EQ(job.state(), JobState::kCancelled);
+}
+
+TEST(Job, CancelWaitsUntilThePreparationHasStopped) {
   Job job = make_job();
   job.start_preparing();
   ASSERT_TRUE(job.cancel());

@@ -63,6 +63,19 @@ TEST(Assemble, MissingOrRepeatedOrMisplacedTilesAreDataLoss) {
   EXPECT_EQ(assemble(settings, {}).error().code, Code::kDataLoss);
 }
 
+TEST(Assemble, AovsFollowTheirPixelsAndAreMissedWhereAskedFor) {
+  Settings settings = odd_size();
+  settings.aovs = set_of(Aov::kDepth);
+  std::vector<TileResult> tiles = all_tiles(settings);
+  EXPECT_EQ(assemble(settings, tiles).error().code, Code::kDataLoss);
+  for (TileResult& tile : tiles) {
+    for (const PixelSums& pixel : tile.pixels) tile.aovs.emplace_back().depth = pixel.emission.r;
+  }
+  const Result<Raster> raster = assemble(settings, tiles);
+  ASSERT_TRUE(raster) << raster.error().message;
+  for (std::size_t i = 0; i < raster->pixels.size(); ++i) EXPECT_EQ(raster->aovs[i].depth, raster->pixels[i].emission.r);
+}
+
 TEST(Assemble, LayersAddUpToTheImage) {
   const Settings settings = odd_size();
   const Image image = to_image(settings, *assemble(settings, all_tiles(settings)));

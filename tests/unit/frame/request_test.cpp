@@ -31,6 +31,7 @@ RenderRequest unusual_request() {
   request.ies = {{"desk", "a.ies"}, {"ceiling", "b.ies"}};
   request.lens_diameter = 0.02F;
   request.focus_distance = 3;
+  request.aov = {"depth", "samples.camera"};
   request.effects = std::string("+textures,-masking");
   return request;
 }
@@ -40,6 +41,19 @@ std::string message_of(const std::string& text) {
   if (request) return "no error";
   EXPECT_EQ(request.error().code, Code::kInvalidArgument);
   return request.error().message;
+}
+
+TEST(RenderRequest, ThePapersGatherIsAWayToGather) {
+  RenderRequest request;
+  request.gather = Gather::kPaper;
+  EXPECT_TRUE(validate(request));
+  EXPECT_EQ(*render_request_from_json(to_json(request)), request);
+  for (const auto other : {RenderRequest::Integrator::kPathTrace, RenderRequest::Integrator::kRadiosity}) {
+    request.integrator = other;
+    ASSERT_FALSE(validate(request));
+    EXPECT_EQ(validate(request).error().code, Code::kInvalidArgument);
+  }
+  EXPECT_THAT(message_of(R"({"gather": "grid"})"), testing::HasSubstr("default, paper"));
 }
 
 TEST(RenderRequest, JsonRoundTripKeepsEverything) {
@@ -74,6 +88,8 @@ TEST(RenderRequest, WrongTypesNameTheKeyAndWhatWouldBeRight) {
   EXPECT_THAT(message_of(R"({"threshold": 1e300})"), testing::HasSubstr("threshold"));
   EXPECT_THAT(message_of(R"({"ies": ["lamp.ies"]})"), testing::HasSubstr("ies: must be an object"));
   EXPECT_THAT(message_of(R"({"ies": {"desk": 7}})"), testing::HasSubstr("ies.desk"));
+  EXPECT_THAT(message_of(R"({"aov": "depth"})"), testing::HasSubstr("aov: must be an array"));
+  EXPECT_THAT(message_of(R"({"aov": [7]})"), testing::HasSubstr("aov"));
   EXPECT_THAT(message_of(R"({"env": 7})"), testing::HasSubstr("env"));
   EXPECT_THAT(message_of(R"({"lens_diameter": "wide"})"), testing::HasSubstr("lens_diameter"));
   EXPECT_THAT(message_of(R"({"camera": "main"})"), testing::HasSubstr("camera"));

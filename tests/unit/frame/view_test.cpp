@@ -18,6 +18,7 @@ View example() {
   view.settings.senders.threshold = 0.25F;
   view.facts = R"({"warnings": []})";
   view.grid = {std::byte{1}, std::byte{2}, std::byte{255}};
+  view.elevation = {2, 1, {1.5F, 10}};
   return view;
 }
 
@@ -34,6 +35,7 @@ TEST(View, RoundTripKeepsEveryByte) {
   EXPECT_EQ(view->settings.seed, example().settings.seed);
   EXPECT_EQ(view->facts, example().facts);
   EXPECT_EQ(view->grid, example().grid);
+  EXPECT_EQ(view->elevation.values, example().elevation.values);
 }
 
 TEST(View, TruncatedOrDamagedBytesGiveDataLossOrASaneView) {
@@ -54,6 +56,14 @@ TEST(View, TruncatedOrDamagedBytesGiveDataLossOrASaneView) {
     const Settings& s = view->settings;
     EXPECT_TRUE(s.width >= 1 && s.width <= 16384 && s.height >= 1 && s.height <= 16384 && s.tile >= 1);
   }
+}
+
+TEST(View, RefusesAovsThatItDoesNotKnow) {
+  View view = example();
+  view.settings.aovs = (AovSet{1} << kAovCount) - 1;
+  EXPECT_EQ(decode_view(encode(view))->settings.aovs, view.settings.aovs);
+  view.settings.aovs = AovSet{1} << kAovCount;
+  EXPECT_EQ(decode_view(encode(view)).error().code, Code::kDataLoss);
 }
 
 TEST(View, RefusesSizesOutOfRange) {

@@ -1,4 +1,5 @@
 // One solution serves every camera and job; what waits for a preparation hears of it and can end it.
+#include <array>
 #include <filesystem>
 #include <mutex>
 #include <set>
@@ -84,9 +85,17 @@ TEST_F(ReuseTest, OtherViewsOfTheSceneUseIt) {
   EXPECT_TRUE(is_reused(other)) << "tile";
   other.threshold = 0.1F;
   EXPECT_TRUE(is_reused(other)) << "threshold";
-  other.threshold.reset();
+}
+
+TEST_F(ReuseTest, WhereAllThatReflectsIsASenderOneSolutionServesTheFullAndThePapersGather) {
+  (void)prepared(small_request());
+  RenderRequest other = small_request();
   other.integrator = RenderRequest::Integrator::kFullGather;
-  EXPECT_TRUE(is_reused(other)) << "integrator";
+  EXPECT_FALSE(is_reused(other));
+  EXPECT_TRUE(is_reused(other)) << "again";
+  other.integrator = RenderRequest::Integrator::kGather;
+  other.gather = Gather::kPaper;
+  EXPECT_TRUE(is_reused(other)) << "paper";
 }
 
 TEST_F(ReuseTest, OtherLightOrAccuracyIsSolvedAnew) {
@@ -137,28 +146,45 @@ struct Listener {
   std::stop_source stop;
 };
 
+constexpr std::array kPhases = {"load", "load: light", "acceleration", "effects", "effects: materials", "effects: pilot",
+                                "effects: trapped light", "radiosity", "radiosity: reach", "radiosity: patches",
+                                "radiosity: clusters",
+                                "radiosity: links", "radiosity: direct light", "radiosity: solving", "radiosity: measuring links",
+                                "radiosity: light paths", "senders: visible points", "senders"};
+
 TEST(PrepareProgress, TellsEveryPhase) {
   Listener listener;
   ASSERT_TRUE(prepare(test::own_scene_path("cornell"), small_request(), listener.context()));
-  for (const char* phase : {"load", "acceleration", "effects", "radiosity: reach", "radiosity: hierarchy",
-                            "radiosity: links", "radiosity: direct light", "radiosity: solving",
-                            "radiosity: measuring links", "radiosity: light paths", "senders"}) {
+  for (const char* phase : kPhases) {
     EXPECT_TRUE(listener.heard.contains(phase)) << phase;
   }
 }
 
 TEST(PrepareProgress, ACancelInAnyPhaseEndsItThereAndKeepsNothing) {
   const auto folder = TemporaryDirectory::create("radfarm-cancel");
-  for (const char* phase : {"load", "acceleration", "effects", "radiosity: reach", "radiosity: hierarchy",
-                            "radiosity: links", "radiosity: direct light", "radiosity: solving",
-                            "radiosity: measuring links", "radiosity: light paths", "senders"}) {
+  for (const char* phase : kPhases) {
     Listener listener(phase);
     PrepareContext context = listener.context();
-    if (std::string_view(phase) != "senders") context.solutions = SolutionStore(folder->path(), 1U << 30U);
+    if (!std::string_view(phase).starts_with("senders")) context.solutions = SolutionStore(folder->path(), 1U << 30U);
     const Result<PreparedFiles> files = prepare(test::own_scene_path("cornell"), small_request(), context);
     ASSERT_FALSE(files) << phase;
     EXPECT_EQ(files.error().code, Code::kCancelled) << phase;
     EXPECT_TRUE(listener.heard.contains("senders") == (std::string_view(phase) == "senders")) << phase;
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder->path()));
+}
+
+TEST(PrepareProgress, ACancelAmongTheElementsKeepsNothing) {
+  const auto folder = TemporaryDirectory::create("radfarm-cancel");
+  RenderRequest request = small_request();
+  request.integrator = RenderRequest::Integrator::kRadiosity;
+  for (const char* phase : {"radiosity: elements", "radiosity: element mesh"}) {
+    Listener listener(phase);
+    PrepareContext context = listener.context();
+    context.solutions = SolutionStore(folder->path(), 1U << 30U);
+    const Result<PreparedFiles> files = prepare(test::own_scene_path("cornell"), request, context);
+    ASSERT_FALSE(files) << phase;
+    EXPECT_EQ(files.error().code, Code::kCancelled) << phase;
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder->path()));
 }

@@ -11,11 +11,14 @@ namespace radfarm {
 namespace {
 
 struct Seen {
-  Seen() : world(test::own_scene("cornell")), camera(world.scene.cameras.at(0)) {
-    points = find_visible_points(world, camera, 24, 24, 2, 1);
+  Seen() : world(test::own_scene("cornell")), lookup(world, nothing), camera(world.scene.cameras.at(0)) {
+    points = find_visible_points(world, lookup, film()).points;
     grid = fit_grid(camera, 24, 24, points, settings);
   }
+  Prepass film() const { return {camera, 24, 24, 2, 1}; }
   World world;
+  SenderTree nothing;
+  ReflectorLookup lookup;
   Camera camera;
   SenderSettings settings;
   std::vector<ReceiverPoint> points;
@@ -40,7 +43,7 @@ TEST(Receivers, AreVisiblePointsThatFaceTheCamera) {
 TEST(Receivers, AreTheSameForAnyNumberOfThreads) {
   const Seen seen;
   const ThreadLimit limit(1);
-  const std::vector<ReceiverPoint> again = find_visible_points(seen.world, seen.camera, 24, 24, 2, 1);
+  const std::vector<ReceiverPoint> again = find_visible_points(seen.world, seen.lookup, seen.film()).points;
   EXPECT_TRUE(std::equal(again.begin(), again.end(), seen.points.begin(), seen.points.end(), same));
 }
 

@@ -44,6 +44,53 @@ TEST(SenderTree, HasOnlyNodesThatSend) {
   }
 }
 
+double brightness(const RadiositySolution& solution, std::size_t node) {
+  const Node& n = solution.hierarchy.nodes[node];
+  const double mean = static_cast<double>(luminance(solution.reflected_power[0])) /
+                      static_cast<double>(solution.hierarchy.nodes[0].area);
+  return static_cast<double>(luminance(solution.reflected_power[node])) / static_cast<double>(n.area) / mean;
+}
+
+TEST(SenderTree, EmittersAndWhatIsFarBrighterThanTheMeanAreSendersAndAllElseReflectors) {
+  for (const char* name : {"cornell", "emitters_reflect", "sheet", "room"}) {
+    const SolvedScene scene(name);
+    const RadiositySolution& solution = scene.solution;
+    const SenderTree tree = make_sender_tree(solution);
+    double by_lines = 0, by_rays = 0, reflected = 0, bright = 0;
+    for (const SenderNode& node : tree.nodes) {
+      if (node.patch != kNone) by_lines += static_cast<double>(luminance(node.reflected_power));
+    }
+    for (const Reflector& reflector : tree.reflectors) {
+      const double power = static_cast<double>(luminance(reflector.radiance) * kPi * area_of(reflector.vertices));
+      if (reflector.by_lines == 0) by_rays += power;
+    }
+    for (std::size_t i = 0; i < solution.hierarchy.nodes.size(); ++i) {
+      const Node& node = solution.hierarchy.nodes[i];
+      if (node.is_cluster() || node.child_count > 0) continue;
+      reflected += static_cast<double>(luminance(solution.reflected_power[i]));
+      if (brightness(solution, i) > 8) bright += static_cast<double>(luminance(solution.reflected_power[i]));
+    }
+    // Sums of thousands of floats.
+    EXPECT_NEAR(by_lines + by_rays, reflected, 1e-4 * reflected) << name;
+    EXPECT_NEAR(by_lines, bright, 1e-4 * reflected) << name;
+    EXPECT_NEAR(static_cast<double>(luminance(tree.nodes[0].emitted_power)),
+                static_cast<double>(luminance(solution.hierarchy.nodes[0].emitted_power)), 1e-4 * reflected) << name;
+  }
+}
+
+TEST(SenderTree, WhereAllAreSendersRaysBringWhatIsNearButEmitters) {
+  const SolvedScene scene("emitters_reflect");
+  std::size_t emitters = 0;
+  for (const Reflector& reflector : scene.tree.reflectors) {
+    ASSERT_NE(reflector.sender, kNone);
+    const SenderNode& node = scene.tree.nodes[reflector.sender];
+    ASSERT_NE(node.patch, kNone);
+    EXPECT_EQ(reflector.by_lines != 0, scene.tree.patches[node.patch].emits != 0);
+    emitters += reflector.by_lines;
+  }
+  EXPECT_GT(emitters, 0U);
+}
+
 TEST(SenderTree, RoundTripKeepsEveryByte) {
   const SolvedScene scene("cornell");
   const std::vector<std::byte> bytes = encode(scene.tree);

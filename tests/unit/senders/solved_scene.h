@@ -13,7 +13,7 @@ struct SolvedScene {
   explicit SolvedScene(Scene scene)
       : world(std::move(scene)),
         solution(solve_radiosity(world, coarse(), 1)),
-        tree(make_sender_tree(solution)),
+        tree(make_sender_tree(solution, SenderChoice::kAll)),
         settings(small_grid(solution)) {}
 
   static RadiositySettings coarse() {
@@ -34,7 +34,7 @@ struct SolvedScene {
   std::size_t patches() const { return world.environment.patches().size(); }
   const Camera& camera() const { return world.scene.cameras.at(0); }
   SenderGridFile classify(std::uint64_t seed = 1) const {
-    return classify_visible(world, tree, camera(), 24, 20, settings, seed);
+    return classify_visible(world, tree, camera(), 24, 20, settings, seed).file;
   }
 
   World world;

@@ -1,4 +1,4 @@
-#include "senders/sender_lookup.h"
+#include "senders/reflector_lookup.h"
 
 #include <algorithm>
 #include <numeric>
@@ -17,28 +17,27 @@ double depth_inside(const TriangleVertices& v, const Vec3& position) {
 
 }  // namespace
 
-SenderLookup::SenderLookup(const World& world, const SenderTree& tree) : tree_(&tree) {
+ReflectorLookup::ReflectorLookup(const World& world, const SenderTree& tree) : tree_(&tree) {
   std::uint64_t triangles = 0;
   for (const Instance& instance : world.scene.instances) {
     first_triangle_.push_back(triangles);
     triangles += world.scene.meshes[instance.mesh].triangles.size();
   }
-  const auto key = [&](std::uint32_t node) {
-    const SenderPatch& patch = tree.patches[tree.nodes[node].patch];
+  const auto key = [&](std::uint32_t i) {
+    const Reflector& patch = tree.reflectors[i];
     return key_of(patch.instance, patch.triangle, patch.is_front != 0);
   };
-  for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
-    if (tree.nodes[i].patch != kNone) nodes_.push_back(i);
-  }
-  std::stable_sort(nodes_.begin(), nodes_.end(), [&](auto a, auto b) { return key(a) < key(b); });
-  for (const std::uint32_t node : nodes_) keys_.push_back(key(node));
+  order_.resize(tree.reflectors.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  for (const std::uint32_t i : order_) keys_.push_back(key(i));
 }
 
-std::uint64_t SenderLookup::key_of(std::uint32_t instance, std::uint32_t triangle, bool is_front) const {
+std::uint64_t ReflectorLookup::key_of(std::uint32_t instance, std::uint32_t triangle, bool is_front) const {
   return 2 * (first_triangle_[instance] + triangle) + (is_front ? 0 : 1);
 }
 
-std::uint32_t SenderLookup::find(const Hit& hit, const SurfacePoint& point) const {
+std::uint32_t ReflectorLookup::find(const Hit& hit, const SurfacePoint& point) const {
   const auto [begin, end] =
       std::equal_range(keys_.begin(), keys_.end(), key_of(hit.instance, hit.triangle, point.is_front));
   if (begin == end) return kNone;
@@ -47,8 +46,8 @@ std::uint32_t SenderLookup::find(const Hit& hit, const SurfacePoint& point) cons
   std::uint32_t best = kNone;
   double deepest = -1e-4;  // of a weight: rounding at the edges
   for (std::size_t i = first; i < first + count; ++i) {
-    const double depth = depth_inside(tree_->patches[tree_->nodes[nodes_[i]].patch].vertices, point.position);
-    if (depth > deepest) deepest = depth, best = nodes_[i];
+    const double depth = depth_inside(tree_->reflectors[order_[i]].vertices, point.position);
+    if (depth > deepest) deepest = depth, best = order_[i];
   }
   return best;
 }

@@ -1,4 +1,4 @@
-#include "senders/sender_lookup.h"
+#include "senders/reflector_lookup.h"
 
 #include <algorithm>
 
@@ -25,11 +25,9 @@ double depth_inside(const TriangleVertices& v, const Vec3& position) {
 // Scenes of a few metres in floats: some ulps of a position.
 constexpr double kRounding = 2e-6;  // m
 
-void expect_contains(const SenderTree& tree, std::uint32_t node, const Hit& hit, const SurfacePoint& point) {
-  ASSERT_LT(node, tree.nodes.size());
-  ASSERT_NE(tree.nodes[node].patch, kNone);
-  EXPECT_EQ(tree.nodes[node].child_count, 0U);
-  const SenderPatch& patch = tree.patches[tree.nodes[node].patch];
+void expect_contains(const SenderTree& tree, std::uint32_t reflector, const Hit& hit, const SurfacePoint& point) {
+  ASSERT_LT(reflector, tree.reflectors.size());
+  const Reflector& patch = tree.reflectors[reflector];
   EXPECT_EQ(patch.instance, hit.instance);
   EXPECT_EQ(patch.triangle, hit.triangle);
   EXPECT_EQ(patch.is_front != 0, point.is_front);
@@ -38,18 +36,18 @@ void expect_contains(const SenderTree& tree, std::uint32_t node, const Hit& hit,
 
 /// Whether any patch of the tree holds the point: the slow truth.
 bool is_sent_from(const SenderTree& tree, const Hit& hit, const SurfacePoint& point) {
-  return std::any_of(tree.patches.begin(), tree.patches.end(), [&](const SenderPatch& patch) {
+  return std::any_of(tree.reflectors.begin(), tree.reflectors.end(), [&](const Reflector& patch) {
     return patch.instance == hit.instance && patch.triangle == hit.triangle && (patch.is_front != 0) == point.is_front &&
            depth_inside(patch.vertices, point.position) > kRounding;
   });
 }
 
-class SenderLookupIn : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, SenderLookupIn, testing::Values("cornell", "emitters_reflect", "sheet", "room"));
+class ReflectorLookupIn : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, ReflectorLookupIn, testing::Values("cornell", "emitters_reflect", "sheet", "room"));
 
-TEST_P(SenderLookupIn, FindsThePatchThatARayMeets) {
+TEST_P(ReflectorLookupIn, FindsThePatchThatARayMeets) {
   const SolvedScene scene(GetParam());
-  const SenderLookup lookup(scene.world, scene.tree);
+  const ReflectorLookup lookup(scene.world, scene.tree);
   RandomSequence random(1);
   const auto inside = [&](int axis) {
     const float share = 0.02F + 0.96F * random.uniform();
@@ -70,28 +68,27 @@ TEST_P(SenderLookupIn, FindsThePatchThatARayMeets) {
     }
     expect_contains(scene.tree, node, *hit, point);
     ++found;
-    const SenderPatch& patch = scene.tree.patches[scene.tree.nodes[node].patch];
     const TriangleVertices whole = scene.world.surfaces.triangle(hit->instance, hit->triangle);
-    in_parts += area_of(whole) > 2 * patch.area;
+    in_parts += area_of(whole) > 2 * area_of(scene.tree.reflectors[node].vertices);
   }
   EXPECT_GT(found, 3000U);
   // A patch that only emits stays whole; else these scenes are cut.
   EXPECT_GT(in_parts, 100U);
 }
 
-TEST(SenderLookup, FindsPointsOnTheEdgesOfWholesAndParts) {
+TEST(ReflectorLookup, FindsPointsOnTheEdgesOfWholesAndParts) {
   // On an edge, rounding may put the point beyond both its neighbours.
   const SolvedScene scene("cornell");
-  const SenderLookup lookup(scene.world, scene.tree);
+  const ReflectorLookup lookup(scene.world, scene.tree);
   RandomSequence random(2);
   std::size_t lost = 0, tried = 0;
-  for (const SenderPatch& patch : scene.tree.patches) {
+  for (const Reflector& patch : scene.tree.reflectors) {
     for (std::size_t edge = 0; edge < 3; ++edge) {
       const float at = random.uniform();
       const Vec3 position = patch.vertices[edge] * (1 - at) + patch.vertices[(edge + 1) % 3] * at;
       const Hit hit = scene.world.surfaces.hit_at(patch.instance, patch.triangle, position);
       SurfacePoint point = scene.world.surfaces.at(hit);
-      face(point, patch.normal);
+      face(point, cross(patch.vertices[1] - patch.vertices[0], patch.vertices[2] - patch.vertices[0]));
       const std::uint32_t node = lookup.find(hit, point);
       ++tried;
       if (node == kNone) {
@@ -115,14 +112,14 @@ RadiositySolution four_parts(const World& world, const std::vector<std::uint32_t
   return solution;
 }
 
-TEST(SenderLookup, FindsNothingOnPartsThatSendNothing) {
+TEST(ReflectorLookup, FindsNothingOnPartsThatSendNothing) {
   test::SceneMaker maker;
   maker.polygon(maker.material(Spectrum(0.5F)), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   const World world(maker.take());
   const auto found = [&](const std::vector<std::uint32_t>& sends, const Vec3& position) {
     const SenderTree tree = make_sender_tree(four_parts(world, sends));
     const Hit hit = world.surfaces.hit_at(0, 0, position);
-    return SenderLookup(world, tree).find(hit, world.surfaces.at(hit)) != kNone;
+    return ReflectorLookup(world, tree).find(hit, world.surfaces.at(hit)) != kNone;
   };
   const Vec3 in_first(0.1F, 0.1F, 0), in_second(0.8F, 0.1F, 0), in_third(0.1F, 0.8F, 0);
   EXPECT_TRUE(found({0, 1}, in_first));
@@ -134,14 +131,14 @@ TEST(SenderLookup, FindsNothingOnPartsThatSendNothing) {
   EXPECT_FALSE(found({0}, in_third));
 }
 
-TEST(SenderLookup, TheOtherSideOfASheetIsDark) {
+TEST(ReflectorLookup, TheOtherSideOfASheetIsDark) {
   test::SceneMaker maker;
   maker.polygon(maker.material(Spectrum(0.5F)), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   const World world(maker.take());
   const SenderTree tree = make_sender_tree(four_parts(world, {0, 1, 2, 3}));
   const Hit hit = world.surfaces.hit_at(0, 0, {0.2F, 0.2F, 0});
   SurfacePoint point = world.surfaces.at(hit);
-  const SenderLookup lookup(world, tree);
+  const ReflectorLookup lookup(world, tree);
   EXPECT_NE(lookup.find(hit, point), kNone);
   face(point, -point.geometric_normal);
   EXPECT_EQ(lookup.find(hit, point), kNone);
