@@ -42,17 +42,26 @@ Spectrum by_ray(const World& world, const SurfacePoint& point, const Vec2& u, st
   return world.surfaces.emission(target) * hit->weight * (weight * kPi);
 }
 
+Spectrum estimate_at(const World& world, const SurfacePoint& point, std::uint32_t i, std::uint64_t key) {
+  return by_next_event(world, point, sobol_owen_1d(i, combine(key, 2)), sobol_owen_2d(i, combine(key, 3))) +
+         by_ray(world, point, sobol_owen_2d(i, combine(key, 4)), combine(key, 5, i));
+}
+
 Spectrum sample_patch(const World& world, const Patch& patch, std::uint32_t samples, std::uint64_t key) {
   SpectrumD sum;
   for (std::uint32_t i = 0; i < samples; ++i) {
-    const SurfacePoint point = point_on_patch(world, patch, sobol_owen_2d(i, combine(key, 1)));
-    sum += SpectrumD(by_next_event(world, point, sobol_owen_1d(i, combine(key, 2)), sobol_owen_2d(i, combine(key, 3))));
-    sum += SpectrumD(by_ray(world, point, sobol_owen_2d(i, combine(key, 4)), combine(key, 5, i)));
+    sum += SpectrumD(estimate_at(world, point_on_patch(world, patch, sobol_owen_2d(i, combine(key, 1))), i, key));
   }
   return Spectrum(sum / static_cast<double>(samples));
 }
 
 }  // namespace
+
+std::array<float, 2> estimate_twice(const World& world, const Patch& patch, std::uint32_t index, std::uint64_t key) {
+  const SurfacePoint point = point_on_patch(world, patch, sobol_owen_2d(index, combine(key, 1)));
+  return {luminance(estimate_at(world, point, index, combine(key, 6))),
+          luminance(estimate_at(world, point, index, combine(key, 7)))};
+}
 
 SurfacePoint point_on_patch(const World& world, const Patch& patch, const Vec2& u) {
   const Vec3 b = sample_uniform_triangle(u);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace radfarm {
 /// Values that `direct` already holds (>= 0) are kept; -1 marks those still to do. Keyed by node. About 1 us a sample.
 void sample_direct(const World& world, const Hierarchy& hierarchy, std::uint32_t min_samples, std::uint64_t seed,
                    std::vector<Spectrum>& direct, const Progress& progress = {});
+
+/// Two independent estimates of the luminance, lux, that one point of a patch receives: number `index` of those of `key`.
+std::array<float, 2> estimate_twice(const World& world, const Patch& patch, std::uint32_t index, std::uint64_t key);
 
 /// A random point of a patch, uniform over its area, with the shading normal that a viewer of its side sees there.
 SurfacePoint point_on_patch(const World& world, const Patch& patch, const Vec2& u);

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "radiosity/deliveries.h"
 #include "radiosity/direct.h"
+#include "radiosity/direct_parts.h"
 #include "radiosity/escape.h"
 #include "radiosity/light_paths.h"
 #include "radiosity/path_posterior.h"
@@ -189,6 +190,10 @@ RadiositySolution solve_radiosity(const FirstLight& light, const RadiositySettin
     if (is_last) measure_again(world, solution.hierarchy, solution.reflected_power, links, settings, seed, progress);
     set_reflected_power(solution.hierarchy, solution.reflected_power);
     sample_direct(world, hierarchy, settings.direct_samples, seed, direct, progress);
+    if (is_last) {
+      cut_by_direct_light(world, settings, flux, seed, solution.hierarchy, direct, solution.reflected_power, progress);
+      sample_direct(world, hierarchy, settings.direct_samples, seed, direct, progress);
+    }
     first = add_specular(direct, specular_irradiance(light, sides, hierarchy));
     if (shines_from_outside(world)) flux = std::min(flux, std::max(landed(hierarchy, first), 1e-3 * flux));
     // Passes before the last only steer the refinement.
