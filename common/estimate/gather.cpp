@@ -86,21 +86,14 @@ void note_grid(const GatherContext& context, const PixelSampler& sampler, FirstS
 }
 
 /// Grid final gather where the camera looks, and light_off_grid() beyond.
-class GridLight : public DiffuseLight {
+class GridLight : public GridGather {
  public:
-  explicit GridLight(const GatherContext& context) : context_(context) {}
+  using GridGather::GridGather;
 
   Arrived seen(const SeenPoint& at, const PixelSampler& sampler, Counters& counters) const override {
     return gather_on_grid({context_, at.point, at.bsdf, sampler, counters, leave(at.point),
                            near_distance(context_.tree, context_.senders.grid(), at.point.position)});
   }
-  Arrived beyond(const Hit&, const Vertex& vertex, const Spectrum& next_event, const PixelSampler& sampler,
-                 std::uint32_t dimension, Counters& counters) const override {
-    return light_off_grid({context_, sampler, counters}, vertex, next_event, dimension);
-  }
-
- private:
-  const GatherContext& context_;
 };
 
 }  // namespace

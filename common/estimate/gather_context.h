@@ -29,7 +29,7 @@ struct GatherPoint {
   const PixelSampler& sampler;
   Counters& counters;
   Vec3 start{0, 0, 0};      // where rays leave it
-  float near_distance = 0;  // m: closer reflecting surfaces are near light, not the senders'
+  float near_distance = 0;  // m: closer reflecting surfaces come by rays, not from senders
 };
 
 /// How much of the irradiance from a unit direction at normal incidence the diffuse part scatters: the cosine, and what its

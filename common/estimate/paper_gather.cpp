@@ -121,20 +121,13 @@ Arrived gather_on_grid(const GatherPoint& point) {
   return arrived;
 }
 
-class PaperLight : public DiffuseLight {
+class PaperLight : public GridGather {
  public:
-  explicit PaperLight(const GatherContext& context) : context_(context) {}
+  using GridGather::GridGather;
 
   Arrived seen(const SeenPoint& at, const PixelSampler& sampler, Counters& counters) const override {
     return gather_on_grid({context_, at.point, at.bsdf, sampler, counters, leave(at.point), 0});
   }
-  Arrived beyond(const Hit&, const Vertex& vertex, const Spectrum& next_event, const PixelSampler& sampler,
-                 std::uint32_t dimension, Counters& counters) const override {
-    return light_off_grid({context_, sampler, counters}, vertex, next_event, dimension);
-  }
-
- private:
-  const GatherContext& context_;
 };
 
 }  // namespace

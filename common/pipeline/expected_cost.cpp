@@ -15,6 +15,8 @@ constexpr double kTimesRays = 1.75;
 // chosen to hold cornell and office, no more.
 constexpr double kLowPerTriangle = 2e-5, kHighPerTriangle = 4e-4;
 constexpr double kSenders = 3;
+// What noisy pixels get beyond the first samples: 1.2 to 8 times on the scenes of docs/benchmarks.md.
+constexpr double kMoreSamples = 8;
 // Corners and what is added at borders [1].
 constexpr double kPaperSamplesPerPixel = 2.5;
 
@@ -65,10 +67,13 @@ ExpectedCost expect_cost(const World& world, const Camera& camera, const Setting
   const bool is_paper = settings.senders.gather == Gather::kPaper;
   const double paper_rays = kPaperSamplesPerPixel * settings.width * settings.height *
                             static_cast<double>(settings.senders.paper_samples);
-  const double rays = is_paper ? paper_rays : samples * static_cast<double>(settings.senders.samples_per_gather);
+  const SenderSettings& senders = settings.senders;
+  const double lines = static_cast<double>(senders.samples_per_gather);
+  const double rays = is_paper ? paper_rays : samples * (1 + lines + senders.reflected_rays * (1 + senders.next_events));
   const double gather = rays * kTimesRays * pilot.ray_seconds;
   cost.low = 0.6 * gather + kLowPerTriangle * triangles + 0.5 * kSenders + cost.audit;
-  cost.high = 1.7 * gather + kHighPerTriangle * triangles + 3 * kSenders + cost.audit;
+  const double most = settings.max_camera_samples > settings.camera_samples ? kMoreSamples : 1;
+  cost.high = 1.7 * most * gather + kHighPerTriangle * triangles + 3 * kSenders + cost.audit;
   return cost;
 }
 

@@ -27,7 +27,7 @@ struct JudgedIrradiance {
 };
 
 /// Judges by bounding box, power and largest radiosity. Parts of a sender that only reflects do not count where they are closer
-/// than `near_distance`: near light, (gather.4), brings those. About 10 ns.
+/// than `near_distance`: rays, (gather.4), bring those. About 10 ns.
 JudgedIrradiance judge_irradiance(const SenderOutline& sender, const Vec3& position, const Vec3& normal, float near_distance);
 
 /// One patch of a sender, drawn for one receiving point.

@@ -30,8 +30,6 @@ struct Arrays {
   std::vector<Reflector> reflectors;
 };
 
-bool is_undivided_patch(const Node& node) { return !node.is_cluster() && node.child_count == 0; }
-
 /// What the nodes reflect by lines, lm.
 std::vector<Spectrum> reflected_by_lines(const RadiositySolution& solution, SenderChoice choice) {
   std::vector<Spectrum> power = solution.reflected_power;
@@ -40,7 +38,7 @@ std::vector<Spectrum> reflected_by_lines(const RadiositySolution& solution, Send
   const double mean = static_cast<double>(luminance(power[0])) / static_cast<double>(nodes[0].area);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double radiosity = static_cast<double>(luminance(power[i])) / static_cast<double>(nodes[i].area);
-    if (!is_undivided_patch(nodes[i]) || radiosity < kBright * mean) power[i] = {};
+    if (!is_undivided(nodes[i]) || radiosity < kBright * mean) power[i] = {};
   }
   pull_up(solution.hierarchy, power);
   return power;
@@ -53,7 +51,7 @@ std::vector<Reflector> make_reflectors(const RadiositySolution& solution, const 
   const bool has_all = choice == SenderChoice::kAll;
   for (std::size_t i = 0; i < solution.hierarchy.nodes.size(); ++i) {
     const Node& node = solution.hierarchy.nodes[i];
-    if (!is_undivided_patch(node)) continue;
+    if (!is_undivided(node)) continue;
     const Spectrum& power = solution.reflected_power[i];
     const Patch& patch = solution.hierarchy.patches[node.patch];
     if (is_black(power) && !(has_all && !is_black(patch.emission))) continue;

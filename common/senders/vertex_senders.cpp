@@ -58,7 +58,7 @@ Observation observe(const VertexContext& context, const std::vector<ReceiverPoin
       continue;
     }
     ++seen.above;
-    // What only reflects and is near is not a sender's to give: near light brings it.
+    // What only reflects and is near is not a sender's to give: rays bring it.
     const bool is_near = context.tree.patches[y.patch].emits == 0 && squared < near_distance * near_distance;
     seen.kernel_min = std::min(seen.kernel_min, is_near ? 0 : k);
     seen.kernel_max = std::max(seen.kernel_max, k);
