@@ -27,7 +27,7 @@ class EyeChain {
       : context_(context), sampler_(sampler), counters_(counters) {}
 
   /// Both what passes panes and what they reflect is followed: left to chance, one sample in ten would see the reflection.
-  RadianceParts trace(Ray ray) {
+  RadianceParts trace(Ray ray, bool scatters = true) {
     ++counters_.camera_rays;
     const Surfaces& surfaces = context_.world.surfaces;
     Spectrum throughput(1.0F);
@@ -37,7 +37,7 @@ class EyeChain {
       if (!met) return parts_;
       SurfacePoint point = met->point;
       const bool is_pane = surfaces.is_pane(surfaces.scene().instances[hit->instance].mesh);
-      scatter_seen(*hit, point, -ray.direction, met->throughput, panes, is_pane);
+      if (scatters) scatter_seen(*hit, point, -ray.direction, met->throughput, panes, is_pane);
       if (!is_pane) return parts_;
       const float cosine = std::fabs(dot(point.geometric_normal, ray.direction));
       throughput = met->throughput * pane_passage(surfaces.matter(point), cosine);
@@ -148,6 +148,10 @@ class EyeChain {
 RadianceParts trace_eye_chain(const EyeChainContext& context, const Ray& camera_ray, const PixelSampler& sampler,
                               Counters& counters) {
   return EyeChain(context, sampler, counters).trace(camera_ray);
+}
+
+Spectrum seen_emission(const EyeChainContext& context, const Ray& camera_ray, const PixelSampler& sampler, Counters& counters) {
+  return EyeChain(context, sampler, counters).trace(camera_ray, false).emission;
 }
 
 }  // namespace radfarm

@@ -22,4 +22,7 @@ inline constexpr std::uint32_t kCoverageDimension = 1;
 RadianceParts trace_eye_chain(const EyeChainContext& context, const Ray& camera_ray, const PixelSampler& sampler,
                               Counters& counters);
 
+/// The emission alone of what trace_eye_chain() sees by no surface but panes: what a camera ray costs.
+Spectrum seen_emission(const EyeChainContext& context, const Ray& camera_ray, const PixelSampler& sampler, Counters& counters);
+
 }  // namespace radfarm

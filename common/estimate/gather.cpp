@@ -107,4 +107,9 @@ RadianceParts gather_radiance(const GatherContext& context, const Ray& camera_ra
   return parts;
 }
 
+Spectrum gather_emission(const GatherContext& context, const Ray& camera_ray, const PixelSampler& sampler, Counters& counters) {
+  const GridLight light(context);
+  return seen_emission({context.world, light, context.has_interreflection, nullptr}, camera_ray, sampler, counters);
+}
+
 }  // namespace radfarm

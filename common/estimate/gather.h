@@ -18,4 +18,7 @@ namespace radfarm {
 RadianceParts gather_radiance(const GatherContext& context, const Ray& ray, const PixelSampler& sampler,
                               Counters& counters, FirstSurface* first = nullptr);
 
+/// The emission alone that gather_radiance() finds as seen directly.
+Spectrum gather_emission(const GatherContext& context, const Ray& camera_ray, const PixelSampler& sampler, Counters& counters);
+
 }  // namespace radfarm

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "estimate/reflected_light.h"
+#include "estimate/lit_reflector.h"
 #include "math/sampling.h"
 
 namespace radfarm {

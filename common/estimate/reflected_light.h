@@ -12,7 +12,4 @@ namespace radfarm {
 /// it fills the view. Emitters are left to the senders. Uses 4 `rays` random dimensions from `dimension`.
 Spectrum reflected_light(const GatherPoint& point, std::uint32_t rays, std::uint32_t dimension);
 
-/// The reflector that a ray met; nullptr where nothing is reflected. Requires: `met` is face()d.
-const Reflector* reflector_at(const GatherContext& context, const Hit& hit, const SurfacePoint& met);
-
 }  // namespace radfarm

@@ -8,6 +8,7 @@
 #include "estimate/counters.h"
 #include "estimate/pixel_sampler.h"
 #include "estimate/pixel_sums.h"
+#include "estimate/sharing_sums.h"
 #include "scene/camera.h"
 
 namespace radfarm {
@@ -23,6 +24,9 @@ struct PixelRect {
 /// One sample of the radiance along a camera ray: what an integrator is to the farm. Fills the last argument where it is given.
 using SampleRadiance = std::function<RadianceParts(const Ray&, const PixelSampler&, Counters&, FirstSurface*)>;
 
+/// The emission that the same ray would see, if that is all that is asked; empty: the integrator has no cheaper way.
+using SampleEmission = std::function<Spectrum(const Ray&, const PixelSampler&, Counters&)>;
+
 /// A film and the random numbers that fall on it.
 struct Film {
   Camera camera;
@@ -32,10 +36,15 @@ struct Film {
   std::uint32_t cone_samples = 0;  // of a pixel, that share it as cones (pixel_cone); 0: rays are lines, no texture is filtered
 };
 
-/// Samples [first, first + count) of one pixel, by a box filter of one pixel. The same bits in any tile or pass. Adds to `aovs`
-/// where it is given.
+/// Samples [first, first + count) of one pixel, by a box filter of one pixel. The same bits in any tile or pass.
 PixelSums sample_pixel(const Film& film, Stream stream, int x, int y, std::uint32_t first, std::uint32_t count,
-                       const SampleRadiance& radiance, Counters& counters, AovSums* aovs = nullptr);
+                       const SampleRadiance& radiance, Counters& counters);
+
+/// What render_tile() keeps of a pixel besides its light.
+struct Kept {
+  bool aovs = false;
+  bool sharing = false;  // then samples come in two halves that share no random number
+};
 
 /// How many samples pixels get.                                                              docs/pipeline.md (pixels.1)
 struct SampleBudget {
@@ -44,10 +53,18 @@ struct SampleBudget {
   float noise = 0;          // cd/m^2: a pixel whose samples scatter by s gets s / noise; 0: `first`
 };
 
-/// sample_pixel for every pixel of a tile, row by row. How many samples a pixel gets is decided by those of its eight
+/// A tile's pixels, row by row; what is not kept is empty.
+struct TilePixels {
+  std::vector<PixelSums> light;
+  std::vector<AovSums> aovs;
+  std::vector<SharingSums> sharing;
+};
+
+/// sample_pixel for every pixel of a tile. How many samples a pixel gets is decided by those of its eight
 /// neighbours, and not by its own: which samples a mean has must not depend on them, or it is biased towards what rare ones
-/// lack. Neighbours beyond the tile's border are sampled as well, to the same bits as in their own tile. Fills `aovs`, one a pixel, where it is given.
-std::vector<PixelSums> render_tile(const Film& film, const PixelRect& rect, const SampleBudget& budget,
-                                   const SampleRadiance& radiance, Counters& counters, std::vector<AovSums>* aovs = nullptr);
+/// lack. Neighbours beyond the tile's border are sampled as well, to the same bits as in their own tile.
+/// Emission has no noise but at its edges: where neighbours' differs, the emission alone is sampled further, by the same rule.
+TilePixels render_tile(const Film& film, const PixelRect& rect, const SampleBudget& budget, const SampleRadiance& radiance,
+                       Counters& counters, const Kept& kept = {}, const SampleEmission& emission = {});
 
 }  // namespace radfarm

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "estimate/lit_reflector.h"
 #include "math/polygon_irradiance.h"
 #include "math/sampling.h"
 
@@ -13,6 +14,8 @@ namespace {
 // Points of a sender from which a line's end is drawn by what they give.
 constexpr std::uint32_t kCandidates = 2;
 constexpr std::uint32_t kEmitterCandidates = 8;  // the edges of their shadows show
+// What lines need beyond their own dimensions is as far off.
+constexpr std::uint32_t kRelitDimension = 1U << 24;
 // A patch with a larger form factor is drawn by solid angle.
 constexpr float kNearFormFactor = 2e-3F;
 
@@ -33,6 +36,7 @@ Spectrum emission_ratio(const GatherPoint& point, const SenderNode& node, const 
 struct Visible {
   Spectrum share;        // mean of V
   Spectrum textured;     // mean of V x emission ratio
+  Spectrum relit;        // mean of V x reflected_ratio()
 };
 
 /// A point of the sender and the weight, up to a common factor, with which it stands for what the receiver gets.
@@ -119,7 +123,8 @@ Visible trace(const GatherPoint& point, const CriticalSender& sender, std::uint3
     if (!near->in_range()) near.reset();
   }
   float lines = 0;
-  Spectrum passed, textured;
+  Spectrum passed, textured, relit;
+  const bool reflects = !is_black(node.reflected_power);
   for (std::uint32_t i = 0; i < count; ++i) {
     const Line line = draw_line(point, node, node_id, near ? &*near : nullptr, dimension + 2 * i);
     if (!(line.weight > 0)) continue;
@@ -128,10 +133,11 @@ Visible trace(const GatherPoint& point, const CriticalSender& sender, std::uint3
     ++lines;
     passed += visible;
     textured += emission_ratio(point, node, line.target) * visible;
+    if (reflects && !is_black(visible)) relit += reflected_ratio(point, line.target, kRelitDimension + dimension + 2 * i) * visible;
   }
   // Every candidate fell below a horizon: they say nothing of the rest of the sender.
-  if (!(lines > 0)) return {sender.visibility, sender.visibility};
-  return {passed / lines, textured / lines};
+  if (!(lines > 0)) return {sender.visibility, sender.visibility, sender.visibility};
+  return {passed / lines, textured / lines, relit / lines};
 }
 
 /// All light of one patch at the point: its exact form factor, its visibility by `count` lines. (gather.3)
@@ -152,7 +158,7 @@ Arrived from_patch(const GatherPoint& point, const CriticalSender& sender, std::
     return {node.emitted_power * scale, node.reflected_power * scale};
   }
   const Visible visible = trace(point, sender, node_id, form_factor, count, dimension);
-  return {node.emitted_power * visible.textured * factor, node.reflected_power * (visible.share * factor)};
+  return {node.emitted_power * visible.textured * factor, node.reflected_power * (visible.relit * factor)};
 }
 
 }  // namespace
@@ -163,7 +169,7 @@ Arrived light_of_sender(const GatherPoint& point, const CriticalSender& sender, 
     const float cosine = cosine_to(point, sender.direction);
     if (cosine == 0) return {};
     const Visible visible = trace(point, sender, sender.node, 0, count, dimension);
-    return {sender.direct * visible.textured * cosine, sender.indirect * (visible.share * cosine)};
+    return {sender.direct * visible.textured * cosine, sender.indirect * (visible.relit * cosine)};
   }
   if (tree.nodes[sender.node].patch != kNone) return from_patch(point, sender, sender.node, count, dimension);
   // A cluster: as many of its patches as it has samples, each drawn for this point, each with one line.

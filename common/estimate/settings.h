@@ -25,7 +25,8 @@ struct Settings {
   std::uint32_t audit_samples = 0;       // paths of each of the two estimates of an audited pixel
   std::uint32_t effects_off = 0;         // EffectSet: the image is rendered without these ...
   std::uint32_t exactly_off = 0;         // ... of which these change no image: the audit leaves them out too
-  std::uint32_t draws_mesh = 0;          // 1: lines over the edges of the elements (radiosity)
+  std::uint16_t draws_mesh = 0;          // 1: lines over the edges of the elements (radiosity)
+  std::uint16_t shares_light = 0;        // 1: like pixels share direct and indirect light (sharing/share_light.h)
   RadiositySettings radiosity;
   SenderSettings senders;
 };

@@ -5,7 +5,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 }  // namespace
 
@@ -14,6 +14,7 @@ std::vector<std::byte> encode(const TileResult& result) {
   file.add_value("rect", result.rect);
   file.add("pixels", result.pixels);
   file.add("aovs", result.aovs);
+  file.add("sharing", result.sharing);
   file.add_value("counters", result.counters);
   return file.finish();
 }
@@ -31,6 +32,7 @@ Result<TileResult> decode_tile_result(std::span<const std::byte> bytes) {
   RADFARM_TRY(result.rect, file.get_value<PixelRect>("rect"));
   RADFARM_TRY(result.pixels, file.copy<PixelSums>("pixels"));
   RADFARM_TRY(result.aovs, file.copy<AovSums>("aovs"));
+  RADFARM_TRY(result.sharing, file.copy<SharingSums>("sharing"));
   RADFARM_TRY(result.counters, file.get_value<Counters>("counters"));
   const PixelRect& rect = result.rect;
   const bool is_inside = rect.x0 >= 0 && rect.y0 >= 0 && rect.x1 > rect.x0 && rect.y1 > rect.y0 &&
@@ -40,6 +42,9 @@ Result<TileResult> decode_tile_result(std::span<const std::byte> bytes) {
   }
   if (!result.aovs.empty() && result.aovs.size() != result.pixels.size()) {
     return fail(Code::kDataLoss, "tile result: its pixels and their AOVs do not agree");
+  }
+  if (!result.sharing.empty() && result.sharing.size() != result.pixels.size()) {
+    return fail(Code::kDataLoss, "tile result: its pixels and what they share do not agree");
   }
   return result;
 }

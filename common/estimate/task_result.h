@@ -9,6 +9,7 @@
 #include "estimate/counters.h"
 #include "estimate/pixel_sums.h"
 #include "estimate/render_tile.h"
+#include "estimate/sharing_sums.h"
 
 namespace radfarm {
 
@@ -16,7 +17,8 @@ namespace radfarm {
 struct TileResult {
   PixelRect rect;
   std::vector<PixelSums> pixels;  // row by row
-  std::vector<AovSums> aovs;      // the same, or empty: nobody asked
+  std::vector<AovSums> aovs;          // the same, or empty: nobody asked
+  std::vector<SharingSums> sharing;   // the same, or empty: pixels do not share
   Counters counters;
   friend bool operator==(const TileResult&, const TileResult&) = default;
 };

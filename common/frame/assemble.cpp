@@ -27,8 +27,9 @@ Result<Raster> assemble(const Settings& settings, std::span<const TileResult> ti
   Raster raster;
   const auto width = static_cast<std::size_t>(settings.width);
   raster.pixels.resize(width * static_cast<std::size_t>(settings.height));
-  const bool has_aovs = settings.aovs != 0;
+  const bool has_aovs = settings.aovs != 0, shares = settings.shares_light != 0;
   if (has_aovs) raster.aovs.resize(raster.pixels.size());
+  if (shares) raster.sharing.resize(raster.pixels.size());
   std::vector<bool> filled(raster.pixels.size());
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < tiles.size(); ++i) {
@@ -36,6 +37,9 @@ Result<Raster> assemble(const Settings& settings, std::span<const TileResult> ti
     if (tile.rect != tile_rect(settings, i)) return fail(Code::kDataLoss, "tile " + std::to_string(i) + " is misplaced");
     if (has_aovs && tile.aovs.size() != tile.pixels.size()) {
       return fail(Code::kDataLoss, "tile " + std::to_string(i) + " has no AOVs");
+    }
+    if (shares && tile.sharing.size() != tile.pixels.size()) {
+      return fail(Code::kDataLoss, "tile " + std::to_string(i) + " has nothing to share");
     }
     raster.counters += tile.counters;
     std::size_t next = 0;
@@ -45,6 +49,7 @@ Result<Raster> assemble(const Settings& settings, std::span<const TileResult> ti
         if (filled[pixel]) return fail(Code::kDataLoss, "tile " + std::to_string(i) + " covers another");
         filled[pixel] = true;
         if (has_aovs) raster.aovs[pixel] = tile.aovs[next];
+        if (shares) raster.sharing[pixel] = tile.sharing[next];
         raster.pixels[pixel] = tile.pixels[next++];
         ++count;
       }

@@ -15,9 +15,10 @@ struct Raster {
   std::vector<PixelSums> pixels;
   Counters counters;
   std::vector<AovSums> aovs = {};  // the same, or empty: nobody asked
+  std::vector<SharingSums> sharing = {};  // the same, or empty: pixels do not share
 };
 
-/// Puts tiles together. DATA_LOSS when a pixel is missing or given twice, or its AOVs are missing.
+/// Puts tiles together. DATA_LOSS when a pixel is missing or given twice, or its AOVs or what it shares are missing.
 Result<Raster> assemble(const Settings& settings, std::span<const TileResult> tiles);
 
 /// The layers of DESIGN section 9: beauty at the root, emission, direct, indirect, specular (zero until photon paths), and the

@@ -72,6 +72,7 @@ json to_json(const Settings& s) {
               {"camera_samples", s.camera_samples},
               {"max_camera_samples", s.max_camera_samples},
               {"noise", s.noise},
+              {"sharing", s.shares_light != 0},
               {"audit_pixels", s.audit_pixels},
               {"audit_samples", s.audit_samples},
               {"effects_off", s.effects_off}};

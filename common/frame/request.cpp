@@ -287,6 +287,7 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
   if (key == "threshold") return read(value, key, request.threshold);
   if (key == "oracle") return read(value, key, request.oracle);
   if (key == "audit") return read(value, key, request.audit);
+  if (key == "sharing") return read(value, key, request.sharing);
   if (key == "mesh") return read(value, key, request.mesh);
   if (key == "aov") return read(value, key, request.aov);
   if (key == "effects") return read(value, key, request.effects);
@@ -338,6 +339,7 @@ nlohmann::json to_json(const RenderRequest& request) {
                {"tile", request.tile},
                {"oracle", to_string(request.oracle)},
                {"audit", request.audit},
+               {"sharing", request.sharing},
                {"effects", request.effects},
                {"env", request.env}};
   if (request.gather != Gather::kDefault) json["gather"] = to_string(request.gather);

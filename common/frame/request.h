@@ -48,6 +48,7 @@ struct RenderRequest {
   std::optional<float> threshold;         // largest accepted change of radiance, cd/m^2; by default from quality
   Oracle oracle = LinkOracle().criterion;  // what judges the links of the radiosity solve
   bool audit = true;
+  bool sharing = true;                    // whether like pixels share light, where the integrator lets them (sharing/share_light.h)
   bool mesh = false;                      // radiosity only: draws the edges of the elements; such an image is not audited
   std::string env;                        // "sky:..." (docs/sky.md), or a map beside the scene file; empty: the dark
   std::map<std::string, std::string> ies;  // light or node name -> IES file beside the scene file

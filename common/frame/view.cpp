@@ -7,7 +7,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 /// Camera without its name: a fixed layout.
 struct StoredCamera {

@@ -4,8 +4,10 @@
 #include "frame/audit.h"
 #include "frame/tasks.h"
 #include "frame/view.h"
+#include "base/stopwatch.h"
 #include "image/digest.h"
 #include "pipeline/pipeline.h"
+#include "sharing/share_light.h"
 
 namespace radfarm {
 namespace {
@@ -47,6 +49,13 @@ void add_attributes(Image& image, const json& report) {
   image.attributes["radfarm.accuracy"] = report["accuracy"].dump();
 }
 
+/// The stage "sharing".
+void share(const Settings& settings, Raster& raster, json& facts) {
+  const Stopwatch watch;
+  share_light(settings.width, settings.height, raster.sharing, raster.pixels, raster.aovs);
+  facts["stages"].push_back({{"name", "sharing"}, {"wall_s", watch.wall_seconds()}, {"cpu_s", watch.cpu_seconds()}});
+}
+
 }  // namespace
 
 Result<Finished> finish(std::span<const std::byte> view, std::span<const std::vector<std::byte>> results,
@@ -54,20 +63,21 @@ Result<Finished> finish(std::span<const std::byte> view, std::span<const std::ve
   RADFARM_TRY(const View opened, decode_view(view));
   const Settings& settings = opened.settings;
   RADFARM_TRY(const Decoded decoded, decode_results(cut_tasks(settings), results));
-  RADFARM_TRY(const Raster raster, assemble(settings, decoded.tiles));
+  RADFARM_TRY(Raster raster, assemble(settings, decoded.tiles));
   if (dropped_share(raster) > kMaxDroppedShare) {
     return fail(Code::kInternal, "a share of " + std::to_string(dropped_share(raster)) +
                                      " of all samples was not finite or negative; the limit is " +
                                      std::to_string(kMaxDroppedShare));
   }
+  json facts = json::parse(opened.facts, nullptr, /*allow_exceptions=*/false);
+  if (!facts.is_object()) return fail(Code::kDataLoss, "view: its facts are not JSON");
+  if (settings.shares_light != 0) share(settings, raster, facts);
   std::optional<Accuracy> accuracy;
   Counters counters = raster.counters;
   if (settings.audit_pixels > 0) {
     RADFARM_TRY(accuracy, audit(settings, raster, decoded.audits));
     for (const AuditResult& audited : decoded.audits) counters.dropped_samples += audited.counters.dropped_samples;
   }
-  json facts = json::parse(opened.facts, nullptr, /*allow_exceptions=*/false);
-  if (!facts.is_object()) return fail(Code::kDataLoss, "view: its facts are not JSON");
   Finished finished;
   finished.image = to_image(settings, raster);
   finished.report = std::make_unique<json>(make_report(std::move(facts), settings, raster, counters, accuracy,

@@ -220,11 +220,13 @@ Status prepare_gather(const World& world, const SolvedLight& light, const Render
                       StageClock& clock, Planned& planned, View& view) {
   RADFARM_TRY(const SenderTree tree, decode_sender_tree(light.file));
   Settings& settings = view.settings;
-  settings.noise = noise_share(request) * static_cast<float>(light.facts.mean_radiance);
   resolve_thresholds(planned, static_cast<float>(light.facts.mean_radiance), settings.senders);
   ClassifiedView classified = classify_visible(world, tree, view.camera, settings.width, settings.height, settings.senders,
                                                settings.seed, context.progress);
   RADFARM_TRY_STATUS(context.progress.check());
+  // Of a view that sees nothing reflect, the whole scene's.
+  const double mean = classified.seen_radiance > 0 ? classified.seen_radiance : light.facts.mean_radiance;
+  settings.noise = noise_share(request) * static_cast<float>(mean);
   const SenderGridFile& grid = classified.file;
   view.grid = encode(grid);
   planned.facts["perception"] = perception_json(classified.perception, settings.senders);

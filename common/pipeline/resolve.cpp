@@ -22,6 +22,7 @@ struct QualityRow {
   std::uint32_t audit_pixels;
   std::uint32_t audit_samples;
   float max_link_error;
+  float gather_link_error;  // of the gather built here: what rays meet it lights anew, but for light reflected twice
   std::uint32_t direct_samples;
   std::uint32_t hits_per_patch;
   std::uint32_t grid_columns;
@@ -32,18 +33,18 @@ struct QualityRow {
   std::uint32_t next_events;
   float full_lines;  // samples_per_gather where all that reflects is a sender
   float threshold_scale;
-  float noise_share;  // of the scene's mean radiance
+  float noise_share;  // of the mean radiance seen
 };
 
 constexpr QualityRow kQuality[] = {
-    {16, 4, 512, 32, 1e-4F, 1, 2, 16, 200, 600, 2, 2, 0, 8, .5F, .05F},
-    {64, 16, 1024, 64, 2e-5F, 2, 4, 24, 400, 1200, 2, 2, 0, 12, .25F, .02F},
-    {256, 32, 2048, 128, 1e-5F, 4, 8, 32, 800, 2400, 2, 2, 1, 16, .125F, .004F},
-    {1024, 64, 4096, 256, 5e-6F, 8, 16, 48, 1600, 4800, 2, 2, 1, 24, .05F, .0008F},
+    {16, 4, 512, 32, 1e-4F, 1e-4F, 1, 2, 16, 200, 600, 2, 2, 0, 8, .5F, .05F},
+    {64, 16, 1024, 64, 2e-5F, 1e-4F, 2, 4, 24, 400, 1200, 2, 2, 1, 12, .25F, .02F},
+    {256, 32, 2048, 128, 1e-5F, 2e-5F, 4, 8, 32, 800, 2400, 2, 2, 1, 16, .125F, .006F},
+    {1024, 64, 4096, 256, 5e-6F, 5e-6F, 8, 16, 48, 1600, 4800, 2, 2, 1, 24, .05F, .0008F},
 };
 
 // Times its first samples, of one pixel.
-constexpr std::uint32_t kMostSamples = 16;
+constexpr std::uint32_t kMostSamples = 64;
 
 void resolve_size(const RenderRequest& request, const Camera& camera, Settings& settings) {
   const double aspect = camera.aspect > 0 ? static_cast<double>(camera.aspect) : kDefaultAspect;
@@ -62,6 +63,12 @@ Settings::Integrator integrator_of(const RenderRequest& request) {
     case RenderRequest::Integrator::kRadiosity: return Settings::Integrator::kRadiosity;
     default: return Settings::Integrator::kGather;
   }
+}
+
+/// The gather as built here: neither the paper's, nor its baseline that evaluates every link at every pixel.
+bool is_default_gather(const RenderRequest& request) {
+  const bool is_gather = request.integrator == RenderRequest::Integrator::kAuto || request.integrator == RenderRequest::Integrator::kGather;
+  return is_gather && request.gather == Gather::kDefault;
 }
 
 /// What the request says of film and lens goes before what the file says.
@@ -124,14 +131,15 @@ Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   settings.seed = request.seed;
   settings.camera_samples = request.samples ? static_cast<std::uint32_t>(*request.samples)
                                             : (is_path ? quality.path_samples : quality.gather_samples);
-  const bool may_differ = settings.integrator == Settings::Integrator::kGather && request.gather == Gather::kDefault &&
-                          !request.samples;
+  const bool is_default = is_default_gather(request);
+  const bool may_differ = is_default && !request.samples;
   settings.max_camera_samples = may_differ ? kMostSamples * settings.camera_samples : settings.camera_samples;
+  settings.shares_light = is_default && request.sharing && settings.camera_samples > 1 ? 1 : 0;
   const bool has_audit = request.audit && !request.mesh;
   settings.audit_pixels = has_audit ? quality.audit_pixels : 0;
   settings.audit_samples = has_audit ? quality.audit_samples : 0;
   settings.draws_mesh = request.mesh ? 1 : 0;
-  settings.radiosity.max_link_error = request.link_error.value_or(quality.max_link_error);
+  settings.radiosity.max_link_error = request.link_error.value_or(is_default ? quality.gather_link_error : quality.max_link_error);
   settings.radiosity.direct_samples = quality.direct_samples;
   settings.radiosity.hits_per_patch = quality.hits_per_patch;
   settings.radiosity.oracle.criterion = request.oracle;

@@ -35,11 +35,22 @@ SampleRadiance gouraud_integrator(const Prepared::Parts& parts, const Film& film
   return parts.view.settings.draws_mesh != 0 ? with_mesh_lines(shaded, context, film) : shaded;
 }
 
+GatherContext gather_context(const Prepared::Parts& parts) {
+  return {parts.world, parts.tree, *parts.lookup, *parts.senders, parts.view.settings.senders, parts.has_interreflection()};
+}
+
+/// Only the gather has a cheaper way to see emission alone; it is asked where pixels may differ in samples.
+SampleEmission emission_integrator(const Prepared::Parts& parts) {
+  if (!parts.senders || parts.is_paper()) return {};
+  return [context = gather_context(parts)](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
+    return gather_emission(context, ray, sampler, counters);
+  };
+}
+
 SampleRadiance integrator(const Prepared::Parts& parts, const Film& film) {
   if (parts.mesh) return gouraud_integrator(parts, film);
   if (!parts.senders) return path_integrator(parts.world, parts.has_interreflection());
-  const GatherContext context{parts.world, parts.tree, *parts.lookup, *parts.senders, parts.view.settings.senders,
-                              parts.has_interreflection()};
+  const GatherContext context = gather_context(parts);
   if (parts.is_paper()) {
     return [context](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
       return paper_gather_radiance(context, ray, sampler, counters, first);
@@ -58,10 +69,16 @@ std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t inde
   film.cone_samples = settings.camera_samples;
   const SampleRadiance radiance = integrator(parts, film);
   const SampleBudget budget{settings.camera_samples, settings.max_camera_samples, settings.noise};
-  std::vector<AovSums>* const aovs = settings.aovs != 0 ? &result.aovs : nullptr;
-  result.pixels = parts.is_paper() ? render_paper_tile(parts.world, film, result.rect, settings.camera_samples, radiance,
-                                                       result.counters)
-                                   : render_tile(film, result.rect, budget, radiance, result.counters, aovs);
+  if (parts.is_paper()) {
+    result.pixels = render_paper_tile(parts.world, film, result.rect, settings.camera_samples, radiance, result.counters);
+    return encode(result);
+  }
+  const Kept kept{settings.aovs != 0, settings.shares_light != 0};
+  TilePixels tile = render_tile(film, result.rect, budget, radiance, result.counters, kept,
+                                emission_integrator(parts));
+  result.pixels = std::move(tile.light);
+  result.aovs = std::move(tile.aovs);
+  result.sharing = std::move(tile.sharing);
   return encode(result);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/random.h"
@@ -56,6 +57,14 @@ VisiblePoints find_visible_points(const World& world, const ReflectorLookup& loo
     all.pixels.insert(all.pixels.end(), row.pixels.begin(), row.pixels.end());
   }
   return all;
+}
+
+double mean_reflected(const VisiblePoints& seen) {
+  double sum = 0;
+  for (std::size_t i = 0; i < seen.points.size(); ++i) {
+    sum += static_cast<double>(seen.points[i].reflectance) * std::max(0.0, static_cast<double>(seen.lights[i].irradiance));
+  }
+  return seen.points.empty() ? 0 : sum / std::numbers::pi / static_cast<double>(seen.points.size());
 }
 
 PerspectiveGrid fit_grid(const Camera& camera, int width, int height, const std::vector<ReceiverPoint>& points,

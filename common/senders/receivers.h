@@ -47,6 +47,9 @@ struct VisiblePoints {
 VisiblePoints find_visible_points(const World& world, const ReflectorLookup& lookup, const Prepass& film,
                                   const Progress& progress = {});
 
+/// Mean luminance that the points reflect, cd/m^2; 0 of none.
+double mean_reflected(const VisiblePoints& seen);
+
 /// A grid over the depths of the points, a little wider.
 PerspectiveGrid fit_grid(const Camera& camera, int width, int height, const std::vector<ReceiverPoint>& points,
                          const SenderSettings& settings);

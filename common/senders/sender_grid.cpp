@@ -76,6 +76,7 @@ ClassifiedView classify_visible(const World& world, const SenderTree& tree, cons
   ClassifiedView view;
   if (progress.is_cancelled()) return view;
   progress.report("senders");
+  view.seen_radiance = mean_reflected(seen);
   SenderGridFile& file = view.file;
   file.grid = fit_grid(camera, width, height, seen.points, settings);
   file.receivers = sort_into_cells(file.grid, seen.points, kReceiversPerCell);

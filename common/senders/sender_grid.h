@@ -26,6 +26,7 @@ struct SenderGridFile {
 struct ClassifiedView {
   SenderGridFile file;
   VertexThresholds perception;  // its values are the file's
+  double seen_radiance = 0;     // reflected, mean over visible points by the radiosity solution, cd/m^2
 };
 
 /// Prepass, grid, thresholds, and the classification of every vertex that a visible point interpolates, on all threads.

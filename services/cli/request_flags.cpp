@@ -100,6 +100,7 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--seed", flags.seed, "another seed, another independent image");
   app.add_option("--tile", flags.tile, "pixels a side of a task; never changes the image");
   app.add_flag("--no-audit", flags.no_audit, "do not measure the error");
+  app.add_flag("--no-sharing", flags.no_sharing, "keep the noise: pixels that look at like surfaces do not share light");
   app.add_flag("--mesh", flags.mesh, "draw the edges of the elements; with --integrator radiosity, and without an audit");
   app.add_option("--aov", flags.aov,
                  "LIST of layers besides light, or all: albedo, normal, depth, irradiance, samples.camera, samples.visibility, "
@@ -143,6 +144,7 @@ Result<RenderRequest> parse_request(const RequestFlags& flags) {
   request.link_error = flags.link_error;
   request.threshold = flags.threshold;
   request.audit = !flags.no_audit;
+  request.sharing = !flags.no_sharing;
   request.mesh = flags.mesh;
   request.aov = flags.aov;
   request.effects = flags.effects;

@@ -25,7 +25,7 @@ struct RequestFlags {
   std::vector<std::string> ies, aov;
   std::uint64_t seed = 1;
   int tile = 32;
-  bool no_audit = false, mesh = false;
+  bool no_audit = false, no_sharing = false, mesh = false;
   UnbuiltFlags unbuilt;
 };
 

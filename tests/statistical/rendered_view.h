@@ -50,7 +50,7 @@ inline std::vector<Mean> means_of_blocks(const Film& film, std::uint32_t samples
   parallel_for(rects.size(), 1, [&](std::size_t begin, std::size_t end) {
     Counters counters;
     for (std::size_t i = begin; i < end; ++i) {
-      means[i] = mean_of_pixels(render_tile(film, rects[i], {samples, samples, 0}, radiance, counters));
+      means[i] = mean_of_pixels(render_tile(film, rects[i], {samples, samples, 0}, radiance, counters).light);
     }
   });
   return means;
@@ -63,7 +63,7 @@ inline Mean mean_of(const Film& film, std::uint32_t samples, const SampleRadianc
     Counters counters;
     for (std::size_t y = begin; y < end; ++y) {
       rows[y] = render_tile(film, {0, static_cast<int>(y), film.width, static_cast<int>(y) + 1}, {samples, samples, 0},
-                            radiance, counters);
+                            radiance, counters).light;
     }
   });
   std::vector<PixelSums> pixels;

@@ -79,7 +79,7 @@ TEST_P(WhiteFurnace, EveryPixelIsTheSky) {
   const std::vector<PixelSums> pixels = render_tile(
       film, {0, 0, kSide, kSide}, {kSamples, kSamples, 0},
       [&](const Ray& ray, const PixelSampler& sampler, Counters& c, FirstSurface*) { return trace_path(world, ray, sampler, c); },
-      counters);
+      counters).light;
   double reflected = 0, mean = 0, variance = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const PixelSums& p = pixels[i];

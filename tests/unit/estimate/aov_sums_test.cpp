@@ -41,50 +41,38 @@ TEST(AovSums, VerticesWithoutSendersHaveNoShares) {
   EXPECT_EQ(sums.classified, 0U);
 }
 
-/// An integrator that counts, and whose second sample is not finite.
-class SamplePixel : public testing::Test {
+/// A pixel by an integrator that counts, and whose second sample is not finite.
+class AovsOfAPixel : public testing::Test {
  protected:
-  PixelSums sample(std::uint32_t first, std::uint32_t count, AovSums* aovs) {
-    std::uint32_t i = first;
+  TilePixels sample(std::uint32_t count, bool keeps_aovs) {
+    std::uint32_t i = 0;
     const SampleRadiance radiance = [&](const Ray&, const PixelSampler& sampler, Counters& c, FirstSurface* seen) {
-      EXPECT_EQ(seen != nullptr, aovs != nullptr);
+      EXPECT_EQ(seen != nullptr, keeps_aovs);
       if (seen != nullptr) *seen = seen_by(i);
       ++c.camera_rays;
       c.visibility_rays += i;
       const bool is_lost = i++ == 1;
       return RadianceParts{{}, Spectrum(is_lost ? std::nanf("") : sampler.one(9)), {}, {}};
     };
-    return sample_pixel(film_, Stream::kRender, 3, 4, first, count, radiance, counters_, aovs);
+    return render_tile(film_, {3, 4, 4, 5}, {count, count, 0}, radiance, counters_, {keeps_aovs, false});
   }
   Film film_{Camera(), 8, 8, 1};
   Counters counters_{};
 };
 
-TEST_F(SamplePixel, GivesTheSameLightWithAndWithoutAovs) {
-  AovSums aovs;
-  EXPECT_EQ(sample(0, 6, &aovs), sample(0, 6, nullptr));
-}
+TEST_F(AovsOfAPixel, GiveTheSameLightAsWithoutThem) { EXPECT_EQ(sample(6, true).light, sample(6, false).light); }
 
-TEST_F(SamplePixel, CountsAllSamplesAndAddsWhatKeptOnesSaw) {
-  AovSums aovs;
-  const PixelSums pixel = sample(0, 6, &aovs);
-  EXPECT_EQ(pixel.dropped, 1U);
+TEST_F(AovsOfAPixel, CountAllSamplesAndHaveWhatKeptOnesSaw) {
+  const TilePixels pixel = sample(6, true);
+  const AovSums& aovs = pixel.aovs.at(0);
+  EXPECT_EQ(pixel.light.at(0).dropped, 1U);
+  EXPECT_EQ(counters_.dropped_samples, 1U);
   EXPECT_EQ(aovs.camera_rays, 6U);
   EXPECT_EQ(aovs.visibility_rays, 0U + 1 + 2 + 3 + 4 + 5);
   EXPECT_EQ(aovs.hits, 3U) << "0, 3 and 4: 1 is dropped, 2 and 5 see nothing";
   // The camera looks along -z from the origin: 2 m a step.
   EXPECT_EQ(film_.camera.forward, Vec3(0, 0, -1));
   EXPECT_EQ(aovs.depth, 2 * (1 + 4 + 5));
-}
-
-TEST_F(SamplePixel, ContinuesSums) {
-  AovSums whole, parts, rest;
-  sample(0, 6, &whole);
-  sample(0, 2, &parts);
-  sample(2, 4, &rest);
-  EXPECT_EQ(parts.camera_rays + rest.camera_rays, whole.camera_rays);
-  EXPECT_EQ(parts.hits + rest.hits, whole.hits);
-  EXPECT_EQ(parts.cell, whole.cell);
 }
 
 }  // namespace

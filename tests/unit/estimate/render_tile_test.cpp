@@ -1,5 +1,8 @@
 #include "estimate/render_tile.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "base/random.h"
@@ -30,7 +33,7 @@ RadianceParts rare_light(const Ray& ray, const PixelSampler& sampler, Counters& 
 
 std::vector<PixelSums> render(const PixelRect& rect, const SampleBudget& budget, std::uint64_t seed = 1) {
   Counters counters;
-  return render_tile(small_film(seed), rect, budget, rare_light, counters);
+  return render_tile(small_film(seed), rect, budget, rare_light, counters).light;
 }
 
 constexpr PixelRect kWhole{0, 0, kWidth, kHeight};
@@ -93,8 +96,73 @@ TEST(RenderTile, APixelWithoutNeighboursGetsTheFirstSamples) {
   Film film = small_film();
   film.width = film.height = 1;
   Counters counters;
-  const std::vector<PixelSums> pixels = render_tile(film, {0, 0, 1, 1}, kByNoise, rare_light, counters);
+  const std::vector<PixelSums> pixels = render_tile(film, {0, 0, 1, 1}, kByNoise, rare_light, counters).light;
   EXPECT_EQ(pixels.at(0).samples, 8U);
+}
+
+/// The same noise everywhere; the left half looks at a plane, the right half at grass.
+RadianceParts on_plane_and_grass(const Ray& ray, const PixelSampler& sampler, Counters&, FirstSurface* seen) {
+  const bool is_left = ray.direction.x < 0;
+  if (seen != nullptr) {
+    const Vec3 blade = normalize(Vec3(sampler.one(5) - 0.5F, sampler.one(6) - 0.5F, 0.3F));
+    *seen = {true, ray.direction / -ray.direction.z, is_left ? Vec3(0, 0, 1) : blade, Spectrum(0.5F), {}, kNone, kNone, {}};
+  }
+  return {{}, Spectrum(2 * sampler.one(9)), {}, {}};
+}
+
+TEST(RenderTile, PixelsThatCanShareGetFewerSamples) {
+  Counters counters;
+  const TilePixels tile = render_tile(small_film(), kWhole, {8, 1024, 0.01F}, on_plane_and_grass, counters, {false, true});
+  double left = 0, right = 0;
+  for (std::size_t i = 0; i < tile.light.size(); ++i) {
+    const auto x = static_cast<int>(i) % kWidth;
+    if (x < kWidth / 2 - 2) left += tile.light[i].samples;
+    if (x >= kWidth / 2 + 2) right += tile.light[i].samples;
+  }
+  EXPECT_GT(right, 2 * left);
+  EXPECT_LT(right, 4 * left);
+}
+
+TEST(RenderTile, SharingKeepsTheOddHalfApart) {
+  Counters counters;
+  const TilePixels tile = render_tile(small_film(), kWhole, {7, 7, 0}, on_plane_and_grass, counters, {false, true});
+  ASSERT_EQ(tile.sharing.size(), tile.light.size());
+  RunningStatistics products;  // of how far the halves are off
+  for (std::size_t i = 0; i < tile.light.size(); ++i) {
+    EXPECT_EQ(tile.light[i].samples, 7U);
+    EXPECT_EQ(tile.sharing[i].samples, 3U);
+    EXPECT_EQ(tile.sharing[i].hits, 7U);
+    const double odd = luminance(tile.sharing[i].direct) / 3, all = luminance(tile.light[i].direct);
+    products.add((odd - 1) * ((all - 3 * odd) / 4 - 1));
+  }
+  // Samples of one stratified set would be off in opposite directions. One false alarm in 16000.
+  EXPECT_NEAR(products.mean(), 0, 4 * products.standard_error());
+}
+
+/// A lamp of 1000 cd/m^2 behind the edge x = .01, before a black wall.
+RadianceParts lamp_behind_an_edge(const Ray& ray, const PixelSampler&, Counters& counters, FirstSurface*) {
+  ++counters.camera_rays;
+  return {Spectrum(ray.direction.x / -ray.direction.z > 0.01F ? 1000.0F : 0.0F), {}, {}, {}};
+}
+
+TEST(RenderTile, EdgesOfEmissionAreSampledFurther) {
+  Counters counters;
+  const SampleEmission emission = [](const Ray& ray, const PixelSampler& sampler, Counters& c) {
+    return lamp_behind_an_edge(ray, sampler, c, nullptr).emission;
+  };
+  const SampleBudget budget{4, 1024, 0.1F};
+  const Film film = small_film();
+  const TilePixels tile = render_tile(film, kWhole, budget, lamp_behind_an_edge, counters, {}, emission);
+  const double step = 2 * std::tan(0.5) / kHeight;  // of the film's plane, a pixel
+  const double edge = 0.01 / step + kWidth / 2.0;
+  for (int x = 0; x < kWidth; ++x) {
+    const PixelSums& pixel = tile.light[static_cast<std::size_t>(5 * kWidth + x)];
+    const double share = std::clamp(x + 1 - edge, 0.0, 1.0);
+    EXPECT_EQ(pixel.samples, 4U);
+    // A stratified set of 1020 points cuts an interval to within one of them.
+    EXPECT_NEAR(luminance(pixel.emission) / 4, 1000 * share, 2.0) << x;
+  }
+  EXPECT_LT(counters.camera_rays, static_cast<std::uint64_t>(kWidth * kHeight * 4 + 4 * kHeight * 1024)) << "only near the edge";
 }
 
 }  // namespace
