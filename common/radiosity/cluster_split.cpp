@@ -7,7 +7,7 @@
 namespace radfarm {
 namespace {
 
-// A patch longer than this share of its group's diagonal is split off before the rest is grouped.
+// An item longer than this share of its group's diagonal is split off before the rest is grouped.
 constexpr float kLargeShare = 0.3F;
 // Weight of orientation against place when groups are split: opposite normals are as far apart as this many diagonals.
 constexpr float kNormalWeight = 0.35F;
@@ -92,7 +92,7 @@ std::size_t median(std::span<ClusterItem> items, float normal_scale, std::size_t
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
                    [&](const ClusterItem& a, const ClusterItem& b) {
                      const float ka = key_of(a, normal_scale)[axis], kb = key_of(b, normal_scale)[axis];
-                     return ka != kb ? ka < kb : a.patch < b.patch;
+                     return ka != kb ? ka < kb : a.number < b.number;
                    });
   return half;
 }

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <span>
 
 #include "base/check.h"
 #include "base/parallel.h"
 #include "math/sampling.h"
-#include "radiosity/cluster_split.h"
+#include "radiosity/cluster_tree.h"
 #include "scene/texture_uses.h"
 
 namespace radfarm {
@@ -16,7 +14,6 @@ namespace {
 
 // A side of a triangle is cut in so many for its mean: textures are averaged over each part, all else is taken at its middle.
 constexpr int kLattice = 4;
-constexpr std::size_t kReportedLeaves = 4096;  // are placed in some 10 ms
 
 /// Whether a mesh is the same all over: no texture, no vertex colours.
 bool is_plain(const Scene& scene, std::uint32_t instance) {
@@ -64,18 +61,6 @@ Patch make_patch(const World& world, std::uint32_t instance, std::uint32_t trian
   return patch;
 }
 
-ClusterItem make_item(const Patch& patch, std::uint32_t id) {
-  const TriangleVertices& v = patch.vertices;
-  ClusterItem item;
-  for (const Vec3& vertex : v) item.bounds.extendBy(vertex);
-  item.centroid = (v[0] + v[1] + v[2]) / 3;
-  item.normal = patch.normal;
-  item.area = area_of(v);
-  item.diameter = std::max({length(v[1] - v[0]), length(v[2] - v[1]), length(v[0] - v[2])});
-  item.patch = id;
-  return item;
-}
-
 void fill_from_patch(const Patch& patch, Node& node) {
   for (const Vec3& v : patch.vertices) node.bounds.extendBy(v);
   node.cone_axis = patch.normal;
@@ -107,39 +92,6 @@ void fill_from_children(const Hierarchy& hierarchy, Node& node) {
   node.reflectance = (a.reflectance * a.area + b.reflectance * b.area) / node.area;
   node.emitted_power = a.emitted_power + b.emitted_power;
   merge_cones(a, b, node);
-}
-
-struct PendingRange {
-  std::uint32_t node;
-  std::size_t begin, end;
-  int depth;
-};
-
-void build_tree(Hierarchy& hierarchy, std::vector<ClusterItem>& items, const Progress& progress) {
-  std::size_t placed = 0;
-  hierarchy.nodes.resize(1);
-  std::vector<PendingRange> pending = {{0, 0, items.size(), 0}};
-  hierarchy.leaves.resize(items.size());
-  while (!pending.empty()) {
-    const PendingRange range = pending.back();
-    pending.pop_back();
-    hierarchy.nodes[range.node].first_leaf = static_cast<std::uint32_t>(range.begin);
-    hierarchy.nodes[range.node].leaf_count = static_cast<std::uint32_t>(range.end - range.begin);
-    if (range.end - range.begin == 1) {
-      hierarchy.nodes[range.node].patch = items[range.begin].patch;
-      hierarchy.leaves[range.begin] = range.node;
-      if (++placed % kReportedLeaves == 0) progress.report("radiosity: clusters", placed, items.size());
-      continue;
-    }
-    const std::size_t first = split_items(std::span(items).subspan(range.begin, range.end - range.begin), range.depth);
-    const auto child = static_cast<std::uint32_t>(hierarchy.nodes.size());
-    hierarchy.nodes[range.node].first_child = child;
-    hierarchy.nodes[range.node].child_count = 2;
-    hierarchy.nodes.resize(hierarchy.nodes.size() + 2);
-    hierarchy.nodes[child].parent = hierarchy.nodes[child + 1].parent = range.node;
-    pending.push_back({child, range.begin, range.begin + first, range.depth + 1});
-    pending.push_back({child + 1, range.begin + first, range.end, range.depth + 1});
-  }
 }
 
 /// The part of a patch that a random number chooses by what it reflects, down to an undivided one. Uses up `choice`.
@@ -183,16 +135,14 @@ Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const st
   }
   if (sources.empty()) return hierarchy;
   hierarchy.patches.resize(sources.size());
-  std::vector<ClusterItem> items(sources.size());
   parallel_for(progress, "radiosity: patches", sources.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       hierarchy.patches[i] = make_patch(world, sources[i].instance, sources[i].triangle, sources[i].is_front);
-      items[i] = make_item(hierarchy.patches[i], static_cast<std::uint32_t>(i));
     }
   });
   if (progress.is_cancelled()) return {};
-  progress.report("radiosity: clusters", 0, items.size());
-  build_tree(hierarchy, items, progress);
+  progress.report("radiosity: clusters", 0, sources.size());
+  build_cluster_tree(hierarchy, progress);
   for (std::size_t i = hierarchy.nodes.size(); i-- > 0;) {
     Node& node = hierarchy.nodes[i];
     node.is_cluster() ? fill_from_children(hierarchy, node) : fill_from_patch(hierarchy.patches[node.patch], node);

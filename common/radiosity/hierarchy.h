@@ -61,7 +61,7 @@ struct Hierarchy {
   std::vector<float> reflected;             // luminance of reflected power, one a node, given with it
 };
 
-/// Clusters by split_items(). Sides that no light reaches are left out. O(n log n) in the number of sides. Deterministic.
+/// Clusters by build_cluster_tree(). Sides that no light reaches are left out. O(n log n) in the number of sides. Deterministic.
 Hierarchy build_hierarchy(const World& world, const SideNumbers& sides, const std::vector<bool>& is_reachable,
                           const Progress& progress = {});
 

@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "math/sampling.h"
 #include "math/sobol.h"
+#include "radiosity/disjoint_sets.h"
 #include "scene/emitter_sampling.h"
 
 namespace radfarm {
@@ -19,23 +20,6 @@ constexpr std::uint32_t kMinRays = 4;
 constexpr std::uint32_t kMaxRays = 256;
 constexpr double kRaysPerScene = 2e5;  // spread over the area, besides kMinRays a side
 constexpr std::uint32_t kRaysPerLight = 8192;
-
-/// Union-find with path halving; the smaller number becomes the root, so the result does not depend on the order.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct Side {
   std::uint32_t instance, triangle;
@@ -96,7 +80,7 @@ double area_of(const World& world, const Side& side) {
 
 /// Sides that a point or spot light's rays meet, or that a directional light shines on.
 void mark_lit_by(const World& world, const SideNumbers& sides, const std::vector<Side>& list, const PunctualEmitter& light,
-                 std::uint64_t key, Groups& groups, std::vector<bool>& lit) {
+                 std::uint64_t key, DisjointSets& groups, std::vector<bool>& lit) {
   if (light.kind == PunctualLight::Kind::kDirectional) {
     for (std::uint32_t s = 0; s < list.size(); ++s) {
       const SurfacePoint point = point_on(world, list[s], sobol_owen_2d(s, key));
@@ -131,7 +115,7 @@ std::vector<std::uint32_t> share_rays(const World& world, const std::vector<Side
 
 /// What light has reached so far, and what hangs together.
 struct Reach {
-  Groups groups;
+  DisjointSets groups;
   std::vector<bool> lit;  // at groups' roots
 
   void light(std::uint32_t side) { lit[groups.root(side)] = true; }
@@ -210,7 +194,7 @@ std::vector<bool> reachable_sides(const FirstLight& light, const SideNumbers& si
   RADFARM_CHECK(light.specular.empty() || light.specular.size() == sides.count);
   const World& world = light.world;
   const std::vector<Side> list = list_sides(world.scene, sides.count);
-  Reach reach{Groups(list.size()), std::vector<bool>(list.size())};
+  Reach reach{DisjointSets(list.size()), std::vector<bool>(list.size())};
   light_emitters(world, sides, list, seed, reach);
   light_specular(light, reach);
   const std::vector<std::uint32_t> counts = share_rays(world, list);

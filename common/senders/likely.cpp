@@ -57,7 +57,8 @@ JudgedIrradiance judge_irradiance(const SenderOutline& sender, const Vec3& posit
   const float counted = sender.emits != 0 ? nearest : std::max(nearest, near_distance);
   const float squared = kPi * counted * counted;
   const float bound = squared * sender.max_radiosity > sender.power ? sender.power / squared : sender.max_radiosity;
-  const float typical = std::min(sender.max_radiosity, sender.power / (kPi * distance * distance));
+  // At most the bound: the centre of a sender that sticks out beyond `near_distance` may be nearer than that.
+  const float typical = std::min(bound, sender.power / (kPi * distance * distance));
   const float cosines = cosine_x * cosine_y;
   return {(kBoundShare * bound + (1 - kBoundShare) * typical) * cosines, bound * cosines};
 }

@@ -5,7 +5,9 @@
 //
 // SETTINGS {"oracle": "KL", "literal": false, "error": 1e-4, "seed": 1, "paths": 0, ...}; radiosity/settings.h has the defaults.
 // The error is that of the piecewise constant function: mean over the points of (B - B1) (B - B2), B_k = rho E_k with the
-// reflectance of the element, E_k independent and unbiased, so that their noise adds nothing. RADFARM_THREADS bounds threads.
+// reflectance of the element, E_k independent and unbiased, so that their noise adds nothing. "indirect" is the same of light that
+// was reflected before, which is what links and paths bring; "clipped" is that again with all three cut off at four times the mean, so that no
+// small bright patch decides. RADFARM_THREADS bounds threads.
 
 #include <algorithm>
 #include <atomic>
@@ -52,38 +54,51 @@ using nlohmann::json;
 constexpr std::uint64_t kPointSeed = 1;
 constexpr std::size_t kBlocks = 32;  // of points, for the error's own error
 
+/// lux
+struct SplitIrradiance {
+  Spectrum direct, indirect;
+  Spectrum whole() const { return direct + indirect; }
+};
+
 struct ReferencePoint {
   std::uint32_t side = 0;  // SideNumbers
   Vec3 position{0, 0, 0};
-  Spectrum first, second;  // irradiance, lux
+  SplitIrradiance first, second;
 };
 
 /// Irradiance at a point by one path: an emitter sampled, and reflected light along one cosine-distributed ray.
-Spectrum one_path(const World& world, const SurfacePoint& point, Stream stream, int index, std::uint32_t path) {
+SplitIrradiance one_path(const World& world, const SurfacePoint& point, Stream stream, int index, std::uint32_t path) {
   const PixelSampler own(kPointSeed, stream, index, 0, path), onward(kPointSeed, stream, index, 1, path);
   const NextEvent event = sample_emitter(world, point, own.one(1), own.two(2));
   const Spectrum direct = event.weight * std::max(0.0F, dot(point.shading_normal, event.direction));
   const Vec3 local = sample_cosine_hemisphere(own.two(3));
   const Ray ray{leave(point), normalize(Frame(point.shading_normal).to_world(local))};
-  if (!(dot(ray.direction, point.geometric_normal) > 0)) return direct;
+  if (!(dot(ray.direction, point.geometric_normal) > 0)) return {direct, Spectrum()};
   Counters counters;
-  return direct + trace_path(world, ray, onward, counters).reflected() * kPi;
+  return {direct, trace_path(world, ray, onward, counters).reflected() * kPi};
 }
 
-Spectrum mean_of_paths(const World& world, const SurfacePoint& point, Stream stream, int index, std::uint32_t paths) {
-  SpectrumD sum;
-  for (std::uint32_t i = 0; i < paths; ++i) sum += SpectrumD(one_path(world, point, stream, index, i));
-  return Spectrum(sum / static_cast<double>(paths));
+SplitIrradiance mean_of_paths(const World& world, const SurfacePoint& point, Stream stream, int index, std::uint32_t paths) {
+  SpectrumD direct, indirect;
+  for (std::uint32_t i = 0; i < paths; ++i) {
+    const SplitIrradiance path = one_path(world, point, stream, index, i);
+    direct += SpectrumD(path.direct), indirect += SpectrumD(path.indirect);
+  }
+  return {Spectrum(direct / static_cast<double>(paths)), Spectrum(indirect / static_cast<double>(paths))};
 }
 
 json as_json(const ReferencePoint& p) {
-  return {p.side,    p.position.x, p.position.y, p.position.z, p.first.r, p.first.g,
-          p.first.b, p.second.r,   p.second.g,   p.second.b};
+  json row = {p.side, p.position.x, p.position.y, p.position.z};
+  for (const Spectrum& s : {p.first.direct, p.first.indirect, p.second.direct, p.second.indirect}) {
+    for (const float channel : {s.r, s.g, s.b}) row.push_back(channel);
+  }
+  return row;
 }
 
 ReferencePoint from_json(const json& j) {
   const auto at = [&](std::size_t i) { return j[i].get<float>(); };
-  return {j[0].get<std::uint32_t>(), Vec3(at(1), at(2), at(3)), Spectrum(at(4), at(5), at(6)), Spectrum(at(7), at(8), at(9))};
+  const auto light = [&](std::size_t i) { return Spectrum(at(i), at(i + 1), at(i + 2)); };
+  return {j[0].get<std::uint32_t>(), Vec3(at(1), at(2), at(3)), {light(4), light(7)}, {light(10), light(13)}};
 }
 
 json make_reference(const World& world, std::size_t count, std::uint32_t paths) {
@@ -118,6 +133,7 @@ Result<RadiositySettings> settings_of(const json& line) {
   settings.samples_per_link = line.value("samples", settings.samples_per_link);
   settings.hits_per_patch = line.value("paths", settings.hits_per_patch);
   settings.max_passes = line.value("passes", settings.max_passes);
+  settings.direct_samples = line.value("direct_samples", settings.direct_samples);
   return settings;
 }
 
@@ -131,25 +147,59 @@ std::vector<std::uint32_t> nodes_of_sides(const Hierarchy& hierarchy, const Side
   return nodes;
 }
 
-/// Mean square error of luminous radiosity by blocks of points, and the reference's mean.
-json errors(const SideNumbers& sides, const RadiositySolution& solution, const std::vector<ReferencePoint>& points) {
+/// At one point: what was solved, and two independent estimates.
+struct Compared {
+  double b, first, second;
+};
+
+double mean_reference(const std::vector<Compared>& all) {
+  double sum = 0;
+  for (const Compared& c : all) sum += (c.first + c.second) / 2;
+  return sum / static_cast<double>(all.size());
+}
+
+/// Mean square error by blocks of points, and the reference's mean.
+json errors(const std::vector<Compared>& all) {
+  std::vector<double> blocks(kBlocks);
+  double bias = 0;
+  const auto n = static_cast<double>(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [b, first, second] = all[i];
+    blocks[i % kBlocks] += (b - first) * (b - second) * kBlocks / n;
+    bias += (b - (first + second) / 2) / n;
+  }
+  return {{"blocks", blocks}, {"mean", mean_reference(all)}, {"bias", bias}};
+}
+
+std::vector<Compared> clip(std::vector<Compared> all) {
+  const double most = 4 * mean_reference(all);
+  for (Compared& c : all) c = {std::min(c.b, most), std::min(c.first, most), std::min(c.second, most)};
+  return all;
+}
+
+/// Luminous radiosity at the reference's points.
+json compare(const SideNumbers& sides, const RadiositySolution& solution, const std::vector<ReferencePoint>& points) {
   const Hierarchy& hierarchy = solution.hierarchy;
   const std::vector<std::uint32_t> nodes = nodes_of_sides(hierarchy, sides);
-  std::vector<double> blocks(kBlocks);
-  double mean = 0, bias = 0;
+  std::vector<Compared> whole(points.size()), indirect(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ReferencePoint& p = points[i];
     if (nodes[p.side] == kNone) continue;  // light reaches it by so few rays that it counts as dark in both
-    const Node& whole = hierarchy.nodes[nodes[p.side]];
     const std::uint32_t part = part_at(hierarchy, nodes[p.side], p.position);
-    const double first = static_cast<double>(luminance(whole.reflectance * p.first));
-    const double second = static_cast<double>(luminance(whole.reflectance * p.second));
-    const double b = static_cast<double>(luminance(solution.reflected_power[part]) / hierarchy.nodes[part].area);
-    blocks[i % kBlocks] += (b - first) * (b - second) * kBlocks / static_cast<double>(points.size());
-    mean += (first + second) / 2 / static_cast<double>(points.size());
-    bias += (b - (first + second) / 2) / static_cast<double>(points.size());
+    const Spectrum reflectance = hierarchy.nodes[nodes[p.side]].reflectance;
+    const auto reflects = [&](const Spectrum& lux) { return static_cast<double>(luminance(reflectance * lux)); };
+    const auto radiosity = [&](const Spectrum& power) {
+      return static_cast<double>(luminance(power) / hierarchy.nodes[part].area);
+    };
+    const double b = radiosity(solution.reflected_power[part]);
+    const double direct = solution.reflected_direct.empty() ? 0 : radiosity(solution.reflected_direct[part]);
+    whole[i] = {b, reflects(p.first.whole()), reflects(p.second.whole())};
+    indirect[i] = {b - direct, reflects(p.first.indirect), reflects(p.second.indirect)};
   }
-  return {{"blocks", blocks}, {"mean", mean}, {"bias", bias}};
+  json out = errors(whole);
+  out["indirect"] = errors(indirect);
+  out["clipped"] = errors(clip(indirect));
+  return out;
 }
 
 json solve_line(const World& world, const std::vector<ReferencePoint>& points, const json& line) {
@@ -160,7 +210,7 @@ json solve_line(const World& world, const std::vector<ReferencePoint>& points, c
   const RadiositySolution solution = solve_radiosity(world, *settings, line.value("seed", std::uint64_t{1}));
   const double cpu = watch.cpu_seconds();
   const std::vector<Node>& nodes = solution.hierarchy.nodes;
-  json out = errors(SideNumbers(world.scene), solution, points);
+  json out = compare(SideNumbers(world.scene), solution, points);
   out["settings"] = line;
   out["cpu_s"] = cpu;
   out["rays"] = ray_count.load();

@@ -80,6 +80,48 @@ TEST_P(HierarchyOf, KeepsEveryNormalInItsNodesCone) {
   }
 }
 
+/// Triangles of random orientation in a slab before the wall z = 0.
+void add_leaves(test::SceneMaker& maker, std::uint32_t material, std::uint64_t seed) {
+  RandomSequence random(seed);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 at(2 * random.uniform(), 2 * random.uniform(), 0.02F + 0.5F * random.uniform());
+    const auto off = [&] { return at + Vec3(random.uniform(), random.uniform(), random.uniform()) * 0.1F; };
+    maker.polygon(material, {at, off(), off()});
+  }
+}
+
+TEST(Hierarchy, KeepsAWallOfManyTrianglesApartFromTheLeavesBeforeIt) {
+  constexpr std::uint32_t kCells = 20;
+  test::SceneMaker maker;
+  const std::uint32_t grey = maker.material(Spectrum(0.5F, 0.5F, 0.5F));
+  std::vector<Vec3> corners;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::uint32_t j = 0; j < kCells; ++j) {
+    for (std::uint32_t i = 0; i < kCells; ++i) {  // each cell has corners of its own: places are shared, indices are not
+      const auto first = static_cast<std::uint32_t>(corners.size());
+      const auto corner = [&](std::uint32_t x, std::uint32_t y) {
+        corners.push_back({0.1F * static_cast<float>(x), 0.1F * static_cast<float>(y), 0});
+      };
+      corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1);
+      triangles.push_back({first, first + 1, first + 2});
+      triangles.push_back({first, first + 2, first + 3});
+    }
+  }
+  maker.mesh(grey, corners, triangles);
+  add_leaves(maker, grey, 4);
+  const World world(maker.take());
+  const Hierarchy h = all_sides(world);
+  const auto is_wall = [&](const Node& node) {
+    if (node.leaf_count != 2 * kCells * kCells) return false;
+    for (std::uint32_t i = node.first_leaf; i < node.first_leaf + node.leaf_count; ++i) {
+      const Patch& patch = h.patches[h.nodes[h.leaves[i]].patch];
+      if (patch.instance != 0 || patch.is_front == 0) return false;
+    }
+    return true;
+  };
+  EXPECT_EQ(std::count_if(h.nodes.begin(), h.nodes.end(), is_wall), 1);
+}
+
 TEST(Hierarchy, LeavesOutWhatNoLightReaches) {
   const World world(test::own_scene("furnace"));
   const SideNumbers sides(world.scene);
