@@ -12,9 +12,12 @@ import math
 import multiprocessing
 import pathlib
 import random
-import struct
 import subprocess
+import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
+from big_scene import BigScene  # noqa: E402
 
 REQUEST = {"width": 32, "height": 18, "integrator": "gather", "samples": 1, "audit": False}
 
@@ -36,45 +39,18 @@ def ball(rng, centre, radius, bands):
     return points, triangles
 
 
-def box(low, high):
-    """A box seen from inside."""
-    corners = [[(high if k >> axis & 1 else low)[axis] for axis in range(3)] for k in range(8)]
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
-
-
-def room(triangles):
+def room(triangles, name):
+    scene = BigScene(name)
+    scene.material("grey", (.7, .7, .7))
+    scene.material("lamp", (0, 0, 0), (1, 1, 1))
+    scene.inward_box(["grey"] * 6, (-4, 0, -4), (4, 3, 4))
+    scene.polygon("lamp", (-1, 2.99, -1), (1, 2.99, -1), (1, 2.99, 1), (-1, 2.99, 1))
     bands = max(2, round(math.sqrt(triangles / 64 / 4)))
     rng = random.Random(1)
-    parts = [(box([-4, 0, -4], [4, 3, 4]), 0), (([[-1, 2.99, -1], [1, 2.99, -1], [1, 2.99, 1], [-1, 2.99, 1]], [(0, 1, 2), (0, 2, 3)]), 1)]
-    for k in range(64):
+    for _ in range(64):
         centre = [rng.uniform(-3.4, 3.4), rng.uniform(.4, 2.2), rng.uniform(-3.4, 3.4)]
-        parts.append((ball(rng, centre, rng.uniform(.1, .4), bands), 0))
-    return parts
-
-
-def write_gltf(parts, path):
-    data, views, accessors, meshes = b"", [], [], []
-    for (points, triangles), material in parts:
-        for kind, rows, code, bounds in (("VEC3", points, "f", True), ("SCALAR", triangles, "I", False)):
-            raw = b"".join(struct.pack(f"<3{code}", *row) for row in rows)
-            views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(raw)})
-            accessor = {"bufferView": len(views) - 1, "componentType": 5126 if bounds else 5125, "type": kind,
-                        "count": len(rows) * (1 if bounds else 3)}
-            if bounds:
-                accessor |= {"min": [min(c) for c in zip(*points)], "max": [max(c) for c in zip(*points)]}
-            accessors.append(accessor)
-            data += raw
-        meshes.append({"primitives": [{"attributes": {"POSITION": len(accessors) - 2}, "indices": len(accessors) - 1, "material": material}]})
-    path.with_suffix(".bin").write_bytes(data)
-    plain = {"metallicFactor": 0, "roughnessFactor": 1}
-    path.write_text(json.dumps({
-        "asset": {"version": "2.0"}, "scene": 0, "extensionsUsed": ["KHR_materials_specular"],
-        "buffers": [{"uri": path.with_suffix(".bin").name, "byteLength": len(data)}], "bufferViews": views, "accessors": accessors,
-        "materials": [{"pbrMetallicRoughness": plain | {"baseColorFactor": [.7, .7, .7, 1]}, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}},
-                      {"pbrMetallicRoughness": plain | {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [1, 1, 1],
-                       "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}],
-        "meshes": meshes, "nodes": [{"mesh": m} for m in range(len(meshes))], "scenes": [{"nodes": list(range(len(meshes)))}]}))
+        scene.mesh("grey", *ball(rng, centre, rng.uniform(.1, .4), bands))
+    return scene
 
 
 def row(build, scene, name, quality, up):
@@ -102,7 +78,7 @@ def main():
         for count in filter(None, arguments.series.split(",")):
             path = pathlib.Path(folder, f"balls-{count}.gltf")
             # In a process of its own: a child's peak memory starts at its parent's.
-            maker = multiprocessing.Process(target=lambda: write_gltf(room(int(count)), path))
+            maker = multiprocessing.Process(target=lambda: room(int(count), path.stem).write(path.parent))
             maker.start()
             maker.join()
             scenes.append((path, f"room of balls, {count}", "Y"))

@@ -2,11 +2,14 @@
 //
 //   render_in_process SCENE OUT.exr [REQUEST-JSON [REPORT.json]]
 //
-// Runs tasks on all cores and prints stages, counts and audited error. Thread count: RADFARM_THREADS.
+// Runs tasks on all cores and prints stages, counts and audited error. Thread count: RADFARM_THREADS. Unlike in a farm's report
+// the stage `tasks` is the image's alone; what the audit took is the stage `audit`.
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
@@ -36,6 +39,19 @@ void print_summary(const nlohmann::json& report, double finish_seconds) {
   std::printf("peak memory %.0f MB\n", static_cast<double>(peak_memory_bytes()) * 1e-6);
 }
 
+struct Took {
+  double wall_seconds = 0, cpu_seconds = 0;
+};
+
+/// On all cores.
+Took run_tasks(const Prepared& prepared, std::span<const Task> tasks, std::span<std::vector<std::byte>> results) {
+  const Stopwatch watch;
+  parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) results[i] = *run_task(prepared, tasks[i]);
+  });
+  return {watch.wall_seconds(), watch.cpu_seconds()};
+}
+
 int run(int count, char** arguments) {
   const auto json = nlohmann::json::parse(count > 3 ? arguments[3] : "{}", nullptr, false);
   const auto request = render_request_from_json(json);
@@ -47,18 +63,20 @@ int run(int count, char** arguments) {
   const auto tasks = cut_tasks(files->view);
   if (!tasks) return failed(tasks.error());
 
-  const Stopwatch watch;
   std::vector<std::vector<std::byte>> results(tasks->size());
-  parallel_for(tasks->size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) results[i] = *run_task(*prepared, (*tasks)[i]);
-  });
+  const auto is_audit = [](const Task& task) { return task.kind == Task::Kind::kAudit; };
+  const auto tiles = static_cast<std::size_t>(std::find_if(tasks->begin(), tasks->end(), is_audit) - tasks->begin());
+  const Took image = run_tasks(*prepared, std::span(*tasks).first(tiles), std::span(results).first(tiles));
+  const Took audit = run_tasks(*prepared, std::span(*tasks).subspan(tiles), std::span(results).subspan(tiles));
   FarmFacts farm;
-  farm.tasks_wall_seconds = watch.wall_seconds();
-  farm.workers.push_back({"in-process", static_cast<int>(tasks->size()), watch.cpu_seconds(), peak_memory_bytes()});
+  farm.tasks_wall_seconds = image.wall_seconds;
+  farm.workers.push_back({"in-process", static_cast<int>(tasks->size()), image.cpu_seconds, peak_memory_bytes()});
 
   const Stopwatch finish_watch;
-  const auto finished = finish(files->view, results, farm);
+  auto finished = finish(files->view, results, farm);
   if (!finished) return failed(finished.error());
+  auto& stages = (*finished->report)["stages"];
+  if (tiles < tasks->size()) stages.push_back({{"name", "audit"}, {"wall_s", audit.wall_seconds}, {"cpu_s", audit.cpu_seconds}});
   const auto exr = encode_exr(finished->image);
   if (!exr) return failed(exr.error());
   if (const auto written = write_file_atomically(arguments[2], *exr); !written) return failed(written.error());

@@ -5,7 +5,7 @@ import math
 import struct
 import zlib
 
-from make_scenes import (FOLDER, Scene, add_accessor, add_material, add_node, cross, look_rotation, normalized)
+from make_scenes import (FOLDER, Scene, add_accessor, add_camera, add_material, add_node, bare_gltf, cross, look_rotation, normalized)
 
 DOWN = [-math.sqrt(.5), 0, 0, math.sqrt(.5)]  # turns -z, the way lamps shine, to -y
 
@@ -50,10 +50,7 @@ class EffectScene(Scene):
         self.lights.append((node, source))
 
     def write(self):
-        gltf = {"asset": {"version": "2.0", "generator": "radfarm tests/scenes/make_effect_scenes.py"},
-                "extensionsUsed": ["KHR_materials_specular"], "scene": 0, "scenes": [{"nodes": [0]}],
-                "nodes": [{"name": self.name, "mesh": 0}], "meshes": [{"name": self.name, "primitives": []}],
-                "materials": [], "accessors": [], "bufferViews": [], "buffers": []}
+        gltf = bare_gltf(self.name, "make_effect_scenes.py")
         data = bytearray()
         self.add_textures(gltf)
         indices = {name: i for i, name in enumerate(self.materials)}
@@ -68,8 +65,7 @@ class EffectScene(Scene):
         uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
         gltf["buffers"].append({"byteLength": len(data), "uri": uri})
         eye, look_at, yfov = self.camera
-        gltf["cameras"] = [{"type": "perspective", "perspective": {"yfov": yfov, "aspectRatio": 4 / 3, "znear": .01}}]
-        add_node(gltf, {"name": "camera", "camera": 0, "translation": eye, "rotation": look_rotation(eye, look_at)})
+        add_camera(gltf, "camera", eye, look_at, {"yfov": yfov, "aspectRatio": 4 / 3, "znear": .01})
         self.add_lights(gltf)
         gltf["extensionsUsed"].sort()
         text = json.dumps(rounded(gltf), indent=1) + "\n"

@@ -71,10 +71,7 @@ class Scene:
                 self.polygon(name, point(x0, y0), point(x1, y0), point(x1, y1), point(x0, y1))
 
     def write(self):
-        gltf = {"asset": {"version": "2.0", "generator": "radfarm tests/scenes/make_scenes.py"},
-                "extensionsUsed": ["KHR_materials_specular"], "scene": 0, "scenes": [{"nodes": [0]}],
-                "nodes": [{"name": self.name, "mesh": 0}], "meshes": [{"name": self.name, "primitives": []}],
-                "materials": [], "accessors": [], "bufferViews": [], "buffers": []}
+        gltf = bare_gltf(self.name, "make_scenes.py")
         data = bytearray()
         for name, (rho, emission) in self.materials.items():
             add_material(gltf, name, rho, emission)
@@ -85,8 +82,7 @@ class Scene:
         gltf["buffers"].append({"byteLength": len(data), "uri": uri})
         eye, look_at, yfov = self.camera
         if eye:
-            gltf["cameras"] = [{"type": "perspective", "perspective": {"yfov": yfov, "znear": 0.01}}]
-            add_node(gltf, {"name": "camera", "camera": 0, "translation": eye, "rotation": look_rotation(eye, look_at)})
+            add_camera(gltf, "camera", eye, look_at, {"yfov": yfov, "znear": .01})
         if self.light:
             gltf["extensionsUsed"].append("KHR_lights_punctual")
             gltf["extensions"] = {"KHR_lights_punctual": {"lights": [self.light[1]]}}
@@ -97,9 +93,22 @@ class Scene:
         (FOLDER / (self.name + ".gltf")).write_text(text)
 
 
+def bare_gltf(name, generator):
+    """One node with one mesh, which has nothing yet."""
+    return {"asset": {"version": "2.0", "generator": f"radfarm tests/scenes/{generator}"},
+            "extensionsUsed": ["KHR_materials_specular"], "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"name": name, "mesh": 0}], "meshes": [{"name": name, "primitives": []}],
+            "materials": [], "accessors": [], "bufferViews": [], "buffers": []}
+
+
 def add_node(gltf, node):
     gltf["scenes"][0]["nodes"].append(len(gltf["nodes"]))
     gltf["nodes"].append(node)
+
+
+def add_camera(gltf, name, eye, look_at, perspective):
+    gltf.setdefault("cameras", []).append({"type": "perspective", "perspective": perspective})
+    add_node(gltf, {"name": name, "camera": len(gltf["cameras"]) - 1, "translation": eye, "rotation": look_rotation(eye, look_at)})
 
 
 def add_material(gltf, name, rho, emission):
@@ -240,16 +249,21 @@ def plant(scene, rng, x, z, leaves):
         scene.polygon("stem", (x - side, .3, z), (x + side, .3, z), top)
         scene.polygon("stem", (x, .3, z - side), (x, .3, z + side), top)
     for _ in range(leaves):
-        u = normalized([rng.gauss(0, 1) for _ in range(3)])
-        r = rng.uniform(.25, 1) ** .6
-        foot = [x + .4 * r * u[0], .95 + .38 * r * u[1], z + .4 * r * u[2]]
-        out = normalized([u[0] + rng.gauss(0, .45), .5 * u[1] - .15 + rng.gauss(0, .45), u[2] + rng.gauss(0, .45)])
-        width = normalized(cross(out, [.5 * u[0], 1, .5 * u[2] + .1]))
-        length = rng.uniform(.08, .15)
-        left, right = ([foot[k] + length * (.45 * out[k] + s * .26 * width[k]) for k in range(3)] for s in (1, -1))
-        tip = [foot[k] + length * out[k] - (.02 if k == 1 else 0) for k in range(3)]
-        scene.polygon(rng.choice(["leaf", "young leaf"]), foot, right, tip)
-        scene.polygon("leaf", foot, tip, left)
+        leaf(scene, rng, (x, .95, z), (.4, .38, .4), (.08, .15))
+
+
+def leaf(scene, rng, at, crown, lengths, droop=.02):
+    """Two triangles that grow outwards in a crown of half axes `crown` around `at`."""
+    u = normalized([rng.gauss(0, 1) for _ in range(3)])
+    r = rng.uniform(.25, 1) ** .6
+    foot = [at[k] + crown[k] * r * u[k] for k in range(3)]
+    out = normalized([u[0] + rng.gauss(0, .45), .5 * u[1] - .15 + rng.gauss(0, .45), u[2] + rng.gauss(0, .45)])
+    width = normalized(cross(out, [.5 * u[0], 1, .5 * u[2] + .1]))
+    length = rng.uniform(*lengths)
+    left, right = ([foot[k] + length * (.45 * out[k] + s * .26 * width[k]) for k in range(3)] for s in (1, -1))
+    tip = [foot[k] + length * out[k] - (droop if k == 1 else 0) for k in range(3)]
+    scene.polygon(rng.choice(["leaf", "young leaf"]), foot, right, tip)
+    scene.polygon("leaf", foot, tip, left)
 
 
 def room():

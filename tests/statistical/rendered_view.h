@@ -85,18 +85,19 @@ inline std::vector<Mean> path_traced_blocks(const World& world, const Film& film
   return means_of_blocks(film, samples, side, path_tracer(world));
 }
 
-/// Solved and classified, at the thresholds of standard quality: what a gather borrows.
+/// Solved and classified, at the thresholds of standard quality: what a gather borrows. `threshold` is a share of the mean radiance.
 class GatheredView {
  public:
-  GatheredView(const World& world, const Film& film, Gather gather = Gather::kDefault)
+  GatheredView(const World& world, const Film& film, Gather gather = Gather::kDefault, float threshold = 0.01F)
       : solution_(solve_radiosity(world, radiosity_settings(), film.seed)),
         tree_(make_sender_tree(solution_, gather == Gather::kPaper ? SenderChoice::kAll : SenderChoice::kBright)),
-        settings_(settings_for(solution_, gather)),
+        settings_(settings_for(solution_, gather, threshold)),
         senders_(classify_visible(world, tree_, film.camera, film.width, film.height, settings_, film.seed).file, world, tree_,
                  settings_, film.seed),
         lookup_(world, tree_),
         context_{world, tree_, lookup_, senders_, settings_} {}
 
+  const PerspectiveGrid& grid() const { return senders_.grid(); }
   SampleRadiance integrator() const {
     return [this](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface*) {
       return settings_.gather == Gather::kPaper ? paper_gather_radiance(context_, ray, sampler, counters)
@@ -110,12 +111,11 @@ class GatheredView {
     settings.max_link_error = 2e-5F;
     return settings;
   }
-  static SenderSettings settings_for(const RadiositySolution& solution, Gather gather) {
-
+  static SenderSettings settings_for(const RadiositySolution& solution, Gather gather, float threshold) {
     SenderSettings settings;
     settings.gather = gather;
     const float area = solution.hierarchy.nodes.at(0).area / 2;
-    settings.threshold = 0.01F * luminance(solution.reflected_power.at(0)) / (kPi * area);
+    settings.threshold = threshold * luminance(solution.reflected_power.at(0)) / (kPi * area);
     return settings;
   }
 
