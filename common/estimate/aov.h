@@ -17,8 +17,9 @@ enum class Aov : std::uint32_t {
   kVariance,
   kClassification,
   kGrid,
+  kMasking,
 };
-inline constexpr std::size_t kAovCount = 10;
+inline constexpr std::size_t kAovCount = 11;
 
 /// Bit k: the Aov of value k. Stored in the settings of a view.
 using AovSet = std::uint32_t;

@@ -14,6 +14,7 @@ void AovSums::add(const FirstSurface& seen, float seen_depth) {
   normal += to_double(seen.normal);
   irradiance += SpectrumD(seen.irradiance);
   depth += static_cast<double>(seen_depth);
+  threshold += static_cast<double>(seen.threshold);
   // Numbers of cells have no mean.
   if (hits == 0) {
     cell = seen.cell;

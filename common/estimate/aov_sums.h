@@ -14,6 +14,7 @@ struct AovSums {
   Vec3d normal{0, 0, 0};
   SpectrumD irradiance;                // over `hits`
   double depth = 0;                    // over `hits`, m along the view axis
+  double threshold = 0;                // over `hits`, cd/m^2: of the grid's vertex
   std::array<double, 4> classes{};     // over `classified`: the share of a vertex's senders that are interpolated, resampled in
                                        // form factor, in visibility, in both
   std::uint64_t camera_rays = 0;       // of all samples, dropped ones too
@@ -30,7 +31,7 @@ struct AovSums {
   void add(const FirstSurface& seen, float seen_depth);
   friend bool operator==(const AovSums&, const AovSums&) = default;
 };
-static_assert(sizeof(AovSums) == 14 * sizeof(double) + 3 * sizeof(std::uint64_t) + 4 * sizeof(std::uint32_t),
+static_assert(sizeof(AovSums) == 15 * sizeof(double) + 3 * sizeof(std::uint64_t) + 4 * sizeof(std::uint32_t),
               "AovSums has padding");
 
 }  // namespace radfarm

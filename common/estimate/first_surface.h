@@ -17,6 +17,7 @@ struct FirstSurface {
   std::uint32_t cell = kNone;    // of the grid
   std::uint32_t vertex = kNone;  // of the grid, that stood for the point
   SenderClasses classes;         // of that vertex
+  float threshold = 0;           // of that vertex, cd/m^2
 };
 
 inline FirstSurface first_surface(const SurfacePoint& point, const Bsdf& bsdf, const Spectrum& irradiance) {

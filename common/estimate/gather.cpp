@@ -83,6 +83,7 @@ void note_grid(const GatherContext& context, const PixelSampler& sampler, FirstS
   first.cell = grid.cell_at(first.position);
   first.vertex = choose_vertex(interpolate(grid, first.position), sampler.one(kVertexDimension));
   first.classes = context.senders.at(first.vertex).classes;
+  first.threshold = context.senders.threshold_at(first.vertex);
 }
 
 /// Grid final gather where the camera looks, and light_off_grid() beyond.

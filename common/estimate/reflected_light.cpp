@@ -22,9 +22,7 @@ Spectrum reflected_light(const GatherPoint& point, std::uint32_t rays, std::uint
     face(met, -way);
     const Reflector* reflector = reflector_at(context, *hit, met);
     if (reflector == nullptr || reflector->by_lines != 0) continue;
-    const Spectrum radiance = context.settings.next_events == 0
-                                  ? reflector->radiance
-                                  : radiance_at(point, *reflector, met, way, dimension + 2 * rays + 2 * i);
+    const Spectrum radiance = radiance_at(point, *reflector, met, way, dimension + 2 * rays + 2 * i);
     sum += hit->weight * radiance * point.bsdf.diffuse_shape(way);
   }
   return sum * (kPi / static_cast<float>(rays));

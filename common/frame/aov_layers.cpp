@@ -54,11 +54,33 @@ constexpr Channel kChannels[] = {
     {Aov::kClassification, "classification.both", [](const P&, const A& a) { return share(3, a); }},
     {Aov::kGrid, "grid.cell", [](const P&, const A& a) { return number(a.cell); }},
     {Aov::kGrid, "grid.vertex", [](const P&, const A& a) { return number(a.vertex); }},
+    {Aov::kMasking, "masking.threshold", [](const P&, const A& a) { return of_hits(a.threshold, a); }},
 };
+
+/// The block of a film that a pixel lies in, of as many along an axis.
+int block_of(int pixel, int pixels, int blocks) { return static_cast<int>(static_cast<std::int64_t>(pixel) * blocks / pixels); }
+
+/// How much the detail that a pixel shows raises what it may be wrong by; 1 without masking.
+float elevation_at(const LuminanceImage& elevation, const Image& image, std::size_t pixel) {
+  if (elevation.values.empty()) return 1;
+  const auto width = static_cast<std::size_t>(image.width);
+  const int x = block_of(static_cast<int>(pixel % width), image.width, elevation.width);
+  const int y = block_of(static_cast<int>(pixel / width), image.height, elevation.height);
+  return elevation.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(elevation.width) + static_cast<std::size_t>(x)];
+}
+
+void add_elevation(const Raster& raster, Image& image) {
+  std::vector<float>& values = image.channels["masking.elevation"];
+  for (std::size_t i = 0; i < raster.pixels.size(); ++i) {
+    const bool is_lost = raster.pixels[i].samples == 0;
+    values.push_back(is_lost ? std::numeric_limits<float>::quiet_NaN() : elevation_at(raster.elevation, image, i));
+  }
+}
 
 }  // namespace
 
 void add_aov_layers(AovSet set, const Raster& raster, Image& image) {
+  if (contains(set, Aov::kMasking)) add_elevation(raster, image);
   for (const Channel& channel : kChannels) {
     if (!contains(set, channel.aov)) continue;
     std::vector<float>& values = image.channels[channel.name];

@@ -57,13 +57,14 @@ Drawing drawing_of(Aov aov) {
               draw_classes,
               "senders interpolated: blue; resampled in form factor: green, in visibility: red, in both: white"};
     case Aov::kGrid: return {{"grid.cell", "grid.vertex"}, nullptr, draw_grid, "a colour a cell"};
+    case Aov::kMasking: return {{"masking.elevation", "masking.threshold"}, "times the threshold without detail", nullptr, ""};
   }
   return {};
 }
 
-/// The values of a pixel that is drawn in false colour: one, or the luminance of three.
+/// The values of a pixel that is drawn in false colour: the first, or the luminance of three.
 Values brightness(const std::vector<const Values*>& channels) {
-  if (channels.size() == 1) return *channels[0];
+  if (channels.size() < 3) return *channels[0];
   Values values;
   for (std::size_t i = 0; i < channels[0]->size(); ++i) {
     values.push_back(luminance(Spectrum((*channels[0])[i], (*channels[1])[i], (*channels[2])[i])));

@@ -11,10 +11,10 @@ using Integrator = RenderRequest::Integrator;
 
 constexpr std::array<const char*, kAovCount> kNames = {
     "albedo",         "normal",             "depth",    "irradiance",     "samples.camera", "samples.visibility",
-    "samples.formfactor", "variance", "classification", "grid"};
+    "samples.formfactor", "variance", "classification", "grid", "masking"};
 
-// DESIGN section 9 has these, too.
-constexpr std::array<std::string_view, 2> kUnbuilt = {"masking", "density"};
+// DESIGN section 9 has this, too.
+constexpr std::array<std::string_view, 1> kUnbuilt = {"density"};
 
 std::string listed(AovSet set) {
   std::string all;
@@ -29,7 +29,7 @@ AovSet given_by(const RenderRequest& request) {
   // One sample has no variance.
   if (request.samples != 1) set |= set_of(Aov::kVariance);
   const bool has_grid = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity;
-  if (has_grid) set |= set_of(Aov::kFormFactorSamples) | set_of(Aov::kClassification) | set_of(Aov::kGrid);
+  if (has_grid) set |= set_of(Aov::kFormFactorSamples) | set_of(Aov::kClassification) | set_of(Aov::kGrid) | set_of(Aov::kMasking);
   return set;
 }
 

@@ -7,6 +7,7 @@
 #include "estimate/settings.h"
 #include "estimate/task_result.h"
 #include "image/image.h"
+#include "image/visibility_threshold.h"
 
 namespace radfarm {
 
@@ -15,6 +16,7 @@ struct Raster {
   std::vector<PixelSums> pixels;
   Counters counters;
   std::vector<AovSums> aovs = {};  // the same, or empty: nobody asked
+  LuminanceImage elevation = {};   // of the visible threshold by detail, blocks of pixels each; empty without masking
   std::vector<SharingSums> sharing = {};  // the same, or empty: pixels do not share
 };
 

@@ -71,6 +71,7 @@ Result<Finished> finish(std::span<const std::byte> view, std::span<const std::ve
   }
   json facts = json::parse(opened.facts, nullptr, /*allow_exceptions=*/false);
   if (!facts.is_object()) return fail(Code::kDataLoss, "view: its facts are not JSON");
+  raster.elevation = opened.elevation;
   if (settings.shares_light != 0) share(settings, raster, facts);
   std::optional<Accuracy> accuracy;
   Counters counters = raster.counters;

@@ -19,7 +19,8 @@ VisiblePoints::Light light_at(const World& world, const ReflectorLookup& lookup,
   const std::uint32_t id = lookup.find(hit, point);
   if (id == kNone) return light;
   const Reflector& reflector = lookup.tree().reflectors[id];
-  if (reflector.reflectance > 0) light.irradiance = kPi * luminance(reflector.radiance) / reflector.reflectance;
+  const Spectrum& believed = reflector.is_doubtful != 0 ? reflector.of_direct : reflector.radiance;
+  if (reflector.reflectance > 0) light.irradiance = kPi * luminance(believed) / reflector.reflectance;
   return light;
 }
 

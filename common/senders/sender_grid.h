@@ -50,6 +50,8 @@ class SenderGrid {
 
   const PerspectiveGrid& grid() const { return grid_; }
   const VertexSenders& at(std::uint32_t vertex) const;
+  /// The largest change of radiance that its classification accepts, cd/m^2.
+  float threshold_at(std::uint32_t vertex) const { return thresholds_[vertex]; }
   /// Vertices that were not in the file and have been computed here so far.
   std::uint64_t computed() const { return computed_.load(std::memory_order_relaxed); }
 

@@ -10,9 +10,10 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
-// A patch with so many times the mean radiosity is a sender: rays would seldom meet it, and bring much when they do.
+// A patch that emitters give so many times the usual radiosity is a sender: rays would seldom meet it, and bring much when they do. One that
+// other surfaces give as much is doubted: light that is caught in a gap, and smeared over the patch's open part.
 constexpr double kBright = 8;
 
 /// What the nodes of a solution send by lines.
@@ -30,15 +31,39 @@ struct Arrays {
   std::vector<Reflector> reflectors;
 };
 
+double radiosity(const Node& node, const Spectrum& power) {
+  return static_cast<double>(luminance(power)) / static_cast<double>(node.area);
+}
+
+/// What a patch reflects of light straight from emitters, as far as the solution tells it apart.
+const Spectrum& lit_power(const RadiositySolution& solution, std::size_t node) {
+  return solution.reflected_direct.empty() ? solution.reflected_power[node] : solution.reflected_direct[node];
+}
+
+/// The mean radiosity of patches that are not far brighter than it, lm/m^2.
+double usual_radiosity(const RadiositySolution& solution) {
+  const std::vector<Node>& nodes = solution.hierarchy.nodes;
+  double mean = std::numeric_limits<double>::infinity(), before = 0;
+  while (mean != before) {
+    double power = 0, area = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!is_undivided(nodes[i]) || radiosity(nodes[i], solution.reflected_power[i]) > kBright * mean) continue;
+      power += static_cast<double>(luminance(solution.reflected_power[i]));
+      area += static_cast<double>(nodes[i].area);
+    }
+    before = mean;
+    mean = area > 0 ? power / area : 0;  // falls from round to round, for a finite number of them
+  }
+  return mean;
+}
+
 /// What the nodes reflect by lines, lm.
-std::vector<Spectrum> reflected_by_lines(const RadiositySolution& solution, SenderChoice choice) {
+std::vector<Spectrum> reflected_by_lines(const RadiositySolution& solution, SenderChoice choice, double usual) {
   std::vector<Spectrum> power = solution.reflected_power;
   if (choice == SenderChoice::kAll) return power;
   const std::vector<Node>& nodes = solution.hierarchy.nodes;
-  const double mean = static_cast<double>(luminance(power[0])) / static_cast<double>(nodes[0].area);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const double radiosity = static_cast<double>(luminance(power[i])) / static_cast<double>(nodes[i].area);
-    if (!is_undivided(nodes[i]) || radiosity < kBright * mean) power[i] = {};
+    if (!is_undivided(nodes[i]) || radiosity(nodes[i], lit_power(solution, i)) < kBright * usual) power[i] = {};
   }
   pull_up(solution.hierarchy, power);
   return power;
@@ -46,7 +71,7 @@ std::vector<Spectrum> reflected_by_lines(const RadiositySolution& solution, Send
 
 /// All that reflects. Where all are senders, what is near comes by rays, but for emitters, whose lines go to near ones as well.
 std::vector<Reflector> make_reflectors(const RadiositySolution& solution, const std::vector<Spectrum>& by_lines,
-                                       const std::vector<std::uint32_t>& sender_of, SenderChoice choice) {
+                                       const std::vector<std::uint32_t>& sender_of, SenderChoice choice, double usual) {
   std::vector<Reflector> reflectors;
   const bool has_all = choice == SenderChoice::kAll;
   for (std::size_t i = 0; i < solution.hierarchy.nodes.size(); ++i) {
@@ -59,7 +84,8 @@ std::vector<Reflector> make_reflectors(const RadiositySolution& solution, const 
     const Spectrum of_direct = solution.reflected_direct.empty() ? Spectrum() : solution.reflected_direct[i];
     const float to_radiance = kInversePi / node.area;
     reflectors.push_back({patch.vertices, power * to_radiance, of_direct * to_radiance, patch.instance, patch.triangle, patch.is_front,
-                          lines_bring_it ? 1U : 0U, sender_of[i], luminance(patch.reflectance)});
+                          lines_bring_it ? 1U : 0U, sender_of[i], luminance(patch.reflectance),
+                          radiosity(node, power - lit_power(solution, i)) > kBright * usual ? 1U : 0U});
   }
   return reflectors;
 }
@@ -134,7 +160,8 @@ SenderTree own_sender_tree(std::vector<SenderNode> nodes, std::vector<SenderPatc
 
 SenderTree make_sender_tree(const RadiositySolution& solution, SenderChoice choice) {
   if (solution.hierarchy.nodes.empty()) return {};
-  const std::vector<Spectrum> by_lines = reflected_by_lines(solution, choice);
+  const double usual = usual_radiosity(solution);
+  const std::vector<Spectrum> by_lines = reflected_by_lines(solution, choice, usual);
   const Sent sent{solution.hierarchy, by_lines};
   Arrays tree;
   std::vector<std::uint32_t> source;  // the solution's node behind each sender
@@ -164,7 +191,7 @@ SenderTree make_sender_tree(const RadiositySolution& solution, SenderChoice choi
       node.max_radiosity = std::max(node.max_radiosity, tree.nodes[node.first_child + c].max_radiosity);
     }
   }
-  tree.reflectors = make_reflectors(solution, by_lines, senders_of_patches(solution.hierarchy, source), choice);
+  tree.reflectors = make_reflectors(solution, by_lines, senders_of_patches(solution.hierarchy, source), choice, usual);
   return own_sender_tree(std::move(tree.nodes), std::move(tree.patches), std::move(tree.reflectors), choice);
 }
 

@@ -53,6 +53,7 @@ struct Reflector {
   std::uint32_t by_lines = 0;  // 1: points of the grid have its light by lines to it, however near
   std::uint32_t sender = kNone;  // the patch's node among the senders, if it is one
   float reflectance = 0;         // luminance of rho, mean over the patch
+  std::uint32_t is_doubtful = 0; // 1: far more from other surfaces than is usual: who sees a part of it may not see that
 };
 
 /// What reflects by lines, too. Where that is everything, rays bring what is nearer than a grid cell is wide.
@@ -71,8 +72,8 @@ struct SenderTree {
 SenderTree own_sender_tree(std::vector<SenderNode> nodes, std::vector<SenderPatch> patches,
                            std::vector<Reflector> reflectors = {}, SenderChoice choice = SenderChoice::kBright);
 
-/// Emitters are always senders. By kBright, of what reflects only patches are whose radiosity is far above the scene's mean:
-/// cosine-distributed rays find all else with little noise and need to know nothing of visibility. O(nodes).
+/// Emitters are always senders. By kBright, of what reflects only patches are that emitters make far brighter than is
+/// usual in the scene: cosine-distributed rays find all else with little noise and need to know nothing of visibility. O(nodes).
 SenderTree make_sender_tree(const RadiositySolution& solution, SenderChoice choice = SenderChoice::kBright);
 
 [[nodiscard]] std::vector<std::byte> encode(const SenderTree& tree);

@@ -77,8 +77,11 @@ void replace_light(const Pixels& pixels, std::size_t i, const std::vector<Fit>& 
   PixelSums& pixel = pixels.light[i];
   const SharingSums& sums = pixels.sums[i];
   const SpectrumD before = pixel.direct + pixel.indirect;
+  const double mean_before = luminance(pixel.reflected()) / pixel.samples;
   pixel.direct = reflected(sums.albedo, pixel.samples, mean_of(fits[0], fits[1], lane), pixel.direct);
   pixel.indirect = reflected(sums.albedo, pixel.samples, mean_of(fits[2], fits[3], lane), pixel.indirect);
+  const double mean = luminance(pixel.reflected()) / pixel.samples;
+  pixel.squared_luminance += (mean * mean - mean_before * mean_before) * pixel.samples;  // the samples scatter as before
   if (!pixels.aovs.empty()) follow(pixel.direct + pixel.indirect - before, sums, pixel.samples, pixels.aovs[i]);
 }
 

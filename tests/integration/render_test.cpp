@@ -96,7 +96,7 @@ TEST_F(AovTest, ArePicturesOnRequest) {
 
 TEST_F(AovTest, WhatCannotBeGivenIsExitCode2) {
   const std::vector<std::vector<std::string>> wrong = {
-      {"--aov", "normals"}, {"--aov", "masking"}, {"--aov", "grid", "--integrator", "path-trace"}, {"--aov-png", output("x")}};
+      {"--aov", "normals"}, {"--aov", "density"}, {"--aov", "grid", "--integrator", "path-trace"}, {"--aov-png", output("x")}};
   for (std::vector<std::string> flags : wrong) {
     flags.insert(flags.begin(), {scene("cornell.gltf"), "-o", output("a.exr")});
     EXPECT_EQ(run(flags), (Exit{false, 2})) << flags.back();

@@ -124,7 +124,7 @@ TEST(RequestFlags, TheGatherIsOursOrThePapers) {
 
 TEST(RequestFlags, WhatIsNotBuiltIsRefusedAndNotIgnored) {
   for (const char* line : {"--error 2%", "--time 60s", "--photons 5", "--radius 1",
-                           "--aov masking", "--aov density", "--criterion KL",
+                           "--aov density", "--criterion KL",
                            "--integrator paths", "--integrator photon-map"}) {
     const Result<RenderRequest> request = parse(line);
     ASSERT_FALSE(request) << line;

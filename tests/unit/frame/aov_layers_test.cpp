@@ -19,7 +19,8 @@ Raster example() {
   for (std::size_t i = 0; i < 2; ++i) {
     for (const float light : {1.0F, 3.0F}) raster.pixels[i].add({{}, Spectrum(light), {}, {}});
   }
-  raster.aovs[0].add({true, {}, {0, 0.6F, 0.8F}, Spectrum(0.5F), Spectrum(100.0F), 7, 9, {1, 2, 0, 1}}, 4);
+  raster.aovs[0].add({true, {}, {0, 0.6F, 0.8F}, Spectrum(0.5F), Spectrum(100.0F), 7, 9, {1, 2, 0, 1}, 0.25F}, 4);
+  raster.elevation = {2, 1, {1.5F, 3}};
   raster.aovs[0].camera_rays = 2, raster.aovs[0].visibility_rays = 50, raster.aovs[0].form_factor_samples = 30;
   return raster;
 }
@@ -48,6 +49,9 @@ TEST(AovLayers, HaveTheirMeansAndTheirUnits) {
   EXPECT_EQ(value(image, "classification.both", 0), 0.25F);
   EXPECT_EQ(value(image, "grid.cell", 0), 7);
   EXPECT_EQ(value(image, "grid.vertex", 0), 9);
+  EXPECT_EQ(value(image, "masking.threshold", 0), 0.25F);
+  EXPECT_EQ(value(image, "masking.elevation", 0), 1.5F) << "two blocks over three pixels";
+  EXPECT_EQ(value(image, "masking.elevation", 1), 1.5F);
 }
 
 TEST(AovLayers, WhatSeesNothingIsZeroAndInNoCell) {

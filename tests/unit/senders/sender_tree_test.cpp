@@ -1,5 +1,9 @@
 #include "senders/sender_tree.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "base/random.h"
@@ -44,19 +48,34 @@ TEST(SenderTree, HasOnlyNodesThatSend) {
   }
 }
 
-double brightness(const RadiositySolution& solution, std::size_t node) {
-  const Node& n = solution.hierarchy.nodes[node];
-  const double mean = static_cast<double>(luminance(solution.reflected_power[0])) /
-                      static_cast<double>(solution.hierarchy.nodes[0].area);
-  return static_cast<double>(luminance(solution.reflected_power[node])) / static_cast<double>(n.area) / mean;
+double radiosity(const Node& node, const Spectrum& power) {
+  return static_cast<double>(luminance(power)) / static_cast<double>(node.area);
 }
 
-TEST(SenderTree, EmittersAndWhatIsFarBrighterThanTheMeanAreSendersAndAllElseReflectors) {
+/// The mean radiosity of undivided patches that are at most 8 times as bright as it, from above.
+double usual_radiosity(const RadiositySolution& solution) {
+  std::vector<std::pair<double, double>> patches;  // radiosity, area
+  for (std::size_t i = 0; i < solution.hierarchy.nodes.size(); ++i) {
+    const Node& node = solution.hierarchy.nodes[i];
+    if (is_undivided(node)) patches.emplace_back(radiosity(node, solution.reflected_power[i]), node.area);
+  }
+  std::sort(patches.begin(), patches.end());
+  for (std::size_t count = patches.size();;) {
+    double power = 0, area = 0;
+    for (std::size_t i = 0; i < count; ++i) power += patches[i].first * patches[i].second, area += patches[i].second;
+    const std::size_t before = count;
+    while (count > 0 && patches[count - 1].first > 8 * power / area) --count;
+    if (count == before) return power / area;
+  }
+}
+
+TEST(SenderTree, EmittersAndWhatTheyMakeFarBrighterThanUsualAreSendersAndAllElseReflectors) {
   for (const char* name : {"cornell", "emitters_reflect", "sheet", "room"}) {
     const SolvedScene scene(name);
     const RadiositySolution& solution = scene.solution;
     const SenderTree tree = make_sender_tree(solution);
     double by_lines = 0, by_rays = 0, reflected = 0, bright = 0;
+    const double usual = usual_radiosity(solution);
     for (const SenderNode& node : tree.nodes) {
       if (node.patch != kNone) by_lines += static_cast<double>(luminance(node.reflected_power));
     }
@@ -68,7 +87,8 @@ TEST(SenderTree, EmittersAndWhatIsFarBrighterThanTheMeanAreSendersAndAllElseRefl
       const Node& node = solution.hierarchy.nodes[i];
       if (node.is_cluster() || node.child_count > 0) continue;
       reflected += static_cast<double>(luminance(solution.reflected_power[i]));
-      if (brightness(solution, i) > 8) bright += static_cast<double>(luminance(solution.reflected_power[i]));
+      const bool is_bright = radiosity(node, solution.reflected_direct[i]) > 8 * usual;
+      if (is_bright) bright += static_cast<double>(luminance(solution.reflected_power[i]));
     }
     // Sums of thousands of floats.
     EXPECT_NEAR(by_lines + by_rays, reflected, 1e-4 * reflected) << name;
@@ -76,6 +96,32 @@ TEST(SenderTree, EmittersAndWhatIsFarBrighterThanTheMeanAreSendersAndAllElseRefl
     EXPECT_NEAR(static_cast<double>(luminance(tree.nodes[0].emitted_power)),
                 static_cast<double>(luminance(solution.hierarchy.nodes[0].emitted_power)), 1e-4 * reflected) << name;
   }
+}
+
+// A patch of which a part hangs over a gap that catches light.
+TEST(SenderTree, WhatSurfacesMakeFarBrighterThanUsualIsDoubtedAndSendsByRays) {
+  const SolvedScene scene("room");
+  RadiositySolution solution = scene.solution;
+  const std::vector<Node>& nodes = solution.hierarchy.nodes;
+  const double usual = usual_radiosity(solution);
+  std::size_t dim = 0;
+  while (!is_undivided(nodes[dim]) || !(radiosity(nodes[dim], solution.reflected_power[dim]) > usual / 4) ||
+         radiosity(nodes[dim], solution.reflected_direct[dim]) > usual) {
+    ++dim;
+  }
+  const std::size_t before = make_sender_tree(solution).nodes.size();
+  solution.reflected_power[dim] *= 1e5F;
+  const SenderTree tree = make_sender_tree(solution);
+  EXPECT_EQ(tree.nodes.size(), before) << "the others are as bright as they were, by what is usual";
+  const Patch& patch = solution.hierarchy.patches[nodes[dim].patch];
+  std::size_t found = 0;
+  for (const Reflector& reflector : tree.reflectors) {
+    if (reflector.vertices != patch.vertices || reflector.is_front != patch.is_front) continue;
+    ++found;
+    EXPECT_EQ(reflector.is_doubtful, 1U);
+    EXPECT_EQ(reflector.by_lines, 0U);
+  }
+  EXPECT_EQ(found, 1U);
 }
 
 TEST(SenderTree, WhereAllAreSendersRaysBringWhatIsNearButEmitters) {
