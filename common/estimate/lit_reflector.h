@@ -9,9 +9,10 @@ namespace radfarm {
 /// The reflector that a ray met; nullptr where nothing is reflected. Requires: `met` is face()d.
 const Reflector* reflector_at(const GatherContext& context, const Hit& hit, const SurfacePoint& met);
 
-/// The radiance of a reflector seen along `way`. Where next events are on, what it has straight from emitters is sampled at the very point:
-/// who looks at a patch looks at its lit part, and its mean is too dark for that. What a doubtful one has from surfaces is that of one more ray, the
-/// `rays`th, at most 4 in all. Uses 2 random dimensions from `dimension`, and some far off.                docs/pipeline.md (gather.4)
+/// The radiance of a reflector seen along `way`. Where next events are on, what it has straight from emitters is sampled at the
+/// very point: who looks at a patch looks at its lit part, and its mean is too dark for that. What a doubtful one has from surfaces
+/// comes by one more ray, at most 4 after each other; this is the `rays`th. Uses 2 random dimensions from `dimension`, and some
+/// far off.                                                                                  docs/pipeline.md (gather.4)
 Spectrum radiance_at(const GatherPoint& point, const Reflector& reflector, const SurfacePoint& met, const Vec3& way,
                      std::uint32_t dimension, std::uint32_t rays = 1);
 

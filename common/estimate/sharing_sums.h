@@ -7,8 +7,8 @@
 
 namespace radfarm {
 
-/// What sharing light among pixels needs of one beside its PixelSums (sharing/share_light.h). Its samples are drawn in two halves that
-/// share no random number: those of odd and of even index. Resumable, stored as it is (docs/formats.md); no padding.
+/// What sharing light among pixels needs of one beside its PixelSums (sharing/share_light.h). Its samples are drawn in two halves
+/// that share no random number: those of odd and of even index. Resumable, stored as it is (docs/formats.md); no padding.
 struct SharingSums {
   SpectrumD direct, indirect;   // of the kept samples of odd index
   SpectrumD albedo;             // over all kept samples; what sees nothing adds 0

@@ -24,7 +24,8 @@ Likeness::Likeness(const Planes& planes, const PixelBlock& block) : planes_(plan
   for (auto& row : frames_) row.resize(block.lanes());
   for (auto& row : features_) row.resize(block.lanes());
   surface_.resize(block.lanes());
-  const std::size_t about = static_cast<std::size_t>(block.width() + 2 * kPatchRadius) * static_cast<std::size_t>(block.height() + 2 * kPatchRadius);
+  const auto padded = [](int side) { return static_cast<std::size_t>(side + 2 * kPatchRadius); };
+  const std::size_t about = padded(block.width()) * padded(block.height());
   for (auto* row : {&distance_, &counts_, &along_, &counts_along_}) row->resize(about);
   std::size_t lane = 0;
   for (int y = block.y0; y < block.y1; ++y) {

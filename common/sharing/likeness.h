@@ -22,8 +22,8 @@ class Likeness {
 
   /// Goes to the neighbours at (dx, dy): `surface` and `features` are theirs from now on.
   void move_to(int dx, int dy);
-  /// exp(-surface - light), about: `light` by how a half's light differs from the neighbours' over patches, beyond what noise explains. One a lane;
-  /// 0 where a pixel does not share.
+  /// exp(-surface - light), about: `light` by how a half's light differs from the neighbours' over patches, beyond what noise
+  /// explains. One a lane; 0 where a pixel does not share.
   void weigh(const Planes::Part& part, int half, std::vector<float>& weights);
 
   /// The neighbours against the pixel: place along the surface (two, in windows), normal (two, in tolerances). One a lane.

@@ -6,15 +6,15 @@
 
 namespace radfarm {
 
-/// Weighted least-squares fits of linear functions of four features, one a pixel of a row of `lanes`: normal equations by terms, so that
-/// additions run over pixels. Three channels share the weights.
+/// Weighted least-squares fits of linear functions of four features, one a pixel of a row of `lanes`: normal equations by terms,
+/// so that additions run over pixels. Three channels share the weights.
 class LocalFits {
  public:
   static constexpr int kTerms = 5;  // 1 and the features
   explicit LocalFits(std::size_t lanes);
 
   void clear();
-  /// Adds one neighbour to each lane of [begin, begin + count): `weights`, `features` (four), `values` (three) are rows of `count`.
+  /// Adds one neighbour to each lane of [begin, begin + count): `weights`, `features` and `values` are rows of `count`.
   void add(std::size_t begin, std::size_t count, const float* weights, const std::array<const float*, 4>& features,
            const std::array<const float*, 3>& values);
   /// The fit at features of zero; features are held back a little, so that what they do not vary in stays 0.

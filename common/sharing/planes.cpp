@@ -67,6 +67,10 @@ float footprint(const Planes& planes, int x, int y) {
   return nearest;
 }
 
+std::size_t row_by_row(const Planes& planes, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(planes.width) + static_cast<std::size_t>(x);
+}
+
 /// The variance of one sample about a pixel, from how the halves of its neighbours differ, over the samples of a half.
 float variance(const Planes& planes, const Planes::Part& part, std::span<const PixelSums> pixels, int x, int y) {
   double sum = 0;
@@ -76,13 +80,11 @@ float variance(const Planes& planes, const Planes::Part& part, std::span<const P
       const std::size_t at = planes.index(i, j);
       if (!(planes.shares[at] > 0)) continue;
       const auto apart = static_cast<double>(part.luminance[0][at] - part.luminance[1][at]);
-      const PixelSums& pixel = pixels[static_cast<std::size_t>(j) * static_cast<std::size_t>(planes.width) + static_cast<std::size_t>(i)];
-      sum += apart * apart / 2 * pixel.samples;
+      sum += apart * apart / 2 * pixels[row_by_row(planes, i, j)].samples;
       ++count;
     }
   }
-  const PixelSums& own = pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(planes.width) + static_cast<std::size_t>(x)];
-  return static_cast<float>(sum / count / own.samples);
+  return static_cast<float>(sum / count / pixels[row_by_row(planes, x, y)].samples);
 }
 
 }  // namespace

@@ -55,7 +55,9 @@ SpectrumD reflected(const SpectrumD& albedo_sum, double samples, const SpectrumD
 }
 
 /// The mean of what both halves tell of a part's light.
-SpectrumD mean_of(const Fit& first, const Fit& second, std::size_t lane) { return (fitted(first, lane) + fitted(second, lane)) / 2.0; }
+SpectrumD mean_of(const Fit& first, const Fit& second, std::size_t lane) {
+  return (fitted(first, lane) + fitted(second, lane)) / 2.0;
+}
 
 /// What a pixel receives changes by what it reflects.
 void follow(const SpectrumD& change, const SharingSums& sums, double samples, AovSums& aovs) {
@@ -113,7 +115,8 @@ void share_block(const Planes& planes, const PixelBlock& block, const Pixels& pi
 
 }  // namespace
 
-void share_light(int width, int height, std::span<const SharingSums> sums, std::span<PixelSums> pixels, std::span<AovSums> aovs) {
+void share_light(int width, int height, std::span<const SharingSums> sums, std::span<PixelSums> pixels,
+                 std::span<AovSums> aovs) {
   const Planes planes = make_planes(width, height, pixels, sums);
   const std::vector<PixelBlock> blocks = cut_blocks(width, height);
   parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
