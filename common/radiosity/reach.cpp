@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "math/sampling.h"
 #include "math/sobol.h"
-#include "radiosity/disjoint_sets.h"
+#include "base/disjoint_sets.h"
 #include "scene/emitter_sampling.h"
 
 namespace radfarm {

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "base/random.h"
-#include "radiosity/disjoint_sets.h"
+#include "base/disjoint_sets.h"
 
 namespace radfarm {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
-// The only difference between Embree 3 and 4 that radfarm meets, in one place. Included by ray_caster.cpp alone.
+// The only difference between Embree 3 and 4 that radfarm meets, and the device, in one place. Included by ray_caster.cpp and
+// disc_caster.cpp alone.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -8,6 +9,14 @@
 #endif
 
 namespace radfarm::rtc {
+
+#if defined(__x86_64__)
+// Hits differ in their last bits between AVX-512, AVX2 and the older sets: one is fixed for all machines.
+inline constexpr const char* kDeviceConfig = "isa=avx2,threads=0";
+#else
+inline constexpr const char* kDeviceConfig = "threads=0";
+#endif
+inline RTCDevice new_device() { return rtcNewDevice(kDeviceConfig); }
 
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;  // the first member of a struct that carries more

@@ -16,7 +16,7 @@ EmittedRay emit_from_triangle(const World& world, const EmissiveTriangle& t, Vec
   if (is_back) face(point, -point.geometric_normal);
   const Vec3 way = Frame(point.geometric_normal).to_world(sample_cosine_hemisphere(direction));
   const Spectrum power = world.surfaces.emission(point) * (kPi * t.area * (t.both_sides ? 2.0F : 1.0F));
-  return {{leave(point), normalize(way)}, power};
+  return {{leave(point), normalize(way)}, power, point.geometric_normal};
 }
 
 /// Light of one direction over the disk that the scene's sphere fills. `irradiance`: of a surface that faces it, lux.

@@ -10,6 +10,7 @@ namespace radfarm {
 struct EmittedRay {
   Ray ray;         // unit direction, off the emitter's surface
   Spectrum power;  // lm, divided by the probability of this emitter: its mean over random numbers is the flux emitted
+  Vec3 plane{0, 0, 0};  // unit normal of the emitting surface, on the side of the ray; zero: points, directions, sky
 };
 
 /// Chooses an emitter as sample_emitter() does, then a ray of its light: from triangles evenly by area and by the cosine, from

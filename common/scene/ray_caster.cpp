@@ -12,13 +12,6 @@
 namespace radfarm {
 namespace {
 
-#if defined(__x86_64__)
-// Hits differ in their last bits between AVX-512, AVX2 and the older sets: one is fixed for all machines.
-constexpr const char* kDeviceConfig = "isa=avx2,threads=0";
-#else
-constexpr const char* kDeviceConfig = "threads=0";
-#endif
-
 /// A pane on a ray's way that changed its colour.
 struct Passed {
   float distance = 0;
@@ -126,7 +119,7 @@ struct RayCaster::Tree {
   std::vector<RTCScene> shared;  // one a mesh that is used more than once, else null
 
   explicit Tree(const Surfaces& s) : surfaces(&s) {
-    device = rtcNewDevice(kDeviceConfig);
+    device = rtc::new_device();
     RADFARM_CHECK(device != nullptr);
     top = new_scene(device);
     shared.resize(s.scene().meshes.size(), nullptr);
@@ -247,6 +240,6 @@ Spectrum RayCaster::transmittance(const Vec3& from, const Vec3& to) const {
   return ray.tfar < 0 ? Spectrum() : query.transmittance;
 }
 
-std::string ray_caster_name() { return "Embree " RTC_VERSION_STRING " (" + std::string(kDeviceConfig) + ")"; }
+std::string ray_caster_name() { return "Embree " RTC_VERSION_STRING " (" + std::string(rtc::kDeviceConfig) + ")"; }
 
 }  // namespace radfarm
