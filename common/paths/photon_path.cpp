@@ -51,8 +51,8 @@ struct Vertex {
   const World& world;
   SurfacePoint point;
   Vec3 in;
-  Bsdf bsdf;
-  Spectrum straight;  // what a pane passes on; black elsewhere
+  Spectrum straight{};  // what a pane passes on; black elsewhere
+  Bsdf bsdf;            // the last: making it sets the others
 
   Vertex(const World& w, const Hit& hit, const Vec3& back)
       : world(w), point(w.surfaces.at(hit)), in(back), bsdf(scattering(w, hit)) {}

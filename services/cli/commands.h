@@ -16,6 +16,7 @@ using Action = std::function<Result<ExitCode>()>;
 void add_render(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_bake(CLI::App& app, Action& action);
+void add_measure(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);

@@ -21,13 +21,12 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "estimate/path_reference.h"
+#include "estimate/path_irradiance.h"
 #include "frame/request.h"
 #include "math/sampling.h"
 #include "math/sobol.h"
 #include "radiosity/deliveries.h"
 #include "radiosity/solve.h"
-#include "scene/emitter_sampling.h"
 #include "scene/load_scene.h"
 
 namespace {
@@ -54,34 +53,18 @@ using nlohmann::json;
 constexpr std::uint64_t kPointSeed = 1;
 constexpr std::size_t kBlocks = 32;  // of points, for the error's own error
 
-/// lux
-struct SplitIrradiance {
-  Spectrum direct, indirect;
-  Spectrum whole() const { return direct + indirect; }
-};
-
 struct ReferencePoint {
   std::uint32_t side = 0;  // SideNumbers
   Vec3 position{0, 0, 0};
-  SplitIrradiance first, second;
+  Arrived first, second;
 };
 
-/// Irradiance at a point by one path: an emitter sampled, and reflected light along one cosine-distributed ray.
-SplitIrradiance one_path(const World& world, const SurfacePoint& point, Stream stream, int index, std::uint32_t path) {
-  const PixelSampler own(kPointSeed, stream, index, 0, path), onward(kPointSeed, stream, index, 1, path);
-  const NextEvent event = sample_emitter(world, point, own.one(1), own.two(2));
-  const Spectrum direct = event.weight * std::max(0.0F, dot(point.shading_normal, event.direction));
-  const Vec3 local = sample_cosine_hemisphere(own.two(3));
-  const Ray ray{leave(point), normalize(Frame(point.shading_normal).to_world(local))};
-  if (!(dot(ray.direction, point.geometric_normal) > 0)) return {direct, Spectrum()};
-  Counters counters;
-  return {direct, trace_path(world, ray, onward, counters).reflected() * kPi};
-}
-
-SplitIrradiance mean_of_paths(const World& world, const SurfacePoint& point, Stream stream, int index, std::uint32_t paths) {
+Arrived mean_of_paths(const World& world, const SurfacePoint& point, Stream stream, int index, std::uint32_t paths) {
   SpectrumD direct, indirect;
+  Counters counters;
   for (std::uint32_t i = 0; i < paths; ++i) {
-    const SplitIrradiance path = one_path(world, point, stream, index, i);
+    const PixelSampler own(kPointSeed, stream, index, 0, i), onward(kPointSeed, stream, index, 1, i);
+    const Arrived path = path_irradiance(world, point, own, onward, counters);
     direct += SpectrumD(path.direct), indirect += SpectrumD(path.indirect);
   }
   return {Spectrum(direct / static_cast<double>(paths)), Spectrum(indirect / static_cast<double>(paths))};
@@ -193,7 +176,7 @@ json compare(const SideNumbers& sides, const RadiositySolution& solution, const 
     };
     const double b = radiosity(solution.reflected_power[part]);
     const double direct = solution.reflected_direct.empty() ? 0 : radiosity(solution.reflected_direct[part]);
-    whole[i] = {b, reflects(p.first.whole()), reflects(p.second.whole())};
+    whole[i] = {b, reflects(p.first.direct + p.first.indirect), reflects(p.second.direct + p.second.indirect)};
     indirect[i] = {b - direct, reflects(p.first.indirect), reflects(p.second.indirect)};
   }
   json out = errors(whole);
