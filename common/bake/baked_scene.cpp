@@ -63,7 +63,7 @@ Spectrum radiance(const World& world, const SurfacePoint& point, BakedMaterial::
   if (shows == BakedMaterial::Shows::kBaseTexture) {
     return material.base_color * Spectrum(point.color[0], point.color[1], point.color[2]) * from_all_around;
   }
-  return world.surfaces.emission(point) + world.surfaces.reflectance(point) * from_all_around;
+  return world.emission(point) + world.surfaces.reflectance(point) * from_all_around;
 }
 
 std::uint16_t to_unsigned(float value) {

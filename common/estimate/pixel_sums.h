@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "estimate/radiance_parts.h"
 
@@ -47,5 +49,13 @@ struct PixelSums {
   SpectrumD reflected() const { return direct + indirect + specular; }
   friend bool operator==(const PixelSums&, const PixelSums&) = default;
 };
+
+/// Of the mean reflected luminance of a pixel's n samples: their sample variance over n, NaN of less than two. Samples are
+/// stratified, so it is what independent ones would have.
+inline double variance_of_mean(const PixelSums& pixel) {
+  if (pixel.samples < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double n = pixel.samples, mean = luminance(pixel.reflected()) / n;
+  return std::max(pixel.squared_luminance / n - mean * mean, 0.0) / (n - 1);
+}
 
 }  // namespace radfarm

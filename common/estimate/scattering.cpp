@@ -34,7 +34,7 @@ Vertex one_way_vertex(const World& world, const SurfacePoint& point, const Bsdf&
 }
 
 Spectrum weighed_emission(const World& world, const Departure& from, const Hit& hit, const SurfacePoint& point) {
-  const Spectrum emitted = world.surfaces.emission(point);
+  const Spectrum emitted = world.emission(point);
   if (from.is_delta || is_black(emitted)) return emitted;
   return emitted * balance_of_hit(world, hit, from.position, from.direction, from.pdf);
 }

@@ -27,7 +27,7 @@ Spectrum emission_ratio(const GatherPoint& point, const SenderNode& node, const 
   // The patch may be a part of its triangle: go by position.
   SurfacePoint at = world.surfaces.at(world.surfaces.hit_at(patch.instance, patch.triangle, y.position));
   face(at, patch.normal);
-  const Spectrum here = world.surfaces.emission(at);
+  const Spectrum here = world.emission(at);
   const Spectrum mean = node.emitted_power / (kPi * node.area);
   return {mean.r > 0 ? here.r / mean.r : 0, mean.g > 0 ? here.g / mean.g : 0, mean.b > 0 ? here.b / mean.b : 0};
 }

@@ -21,14 +21,6 @@ double share(std::size_t kind, const AovSums& aovs) { return aovs.classified > 0
 
 double number(std::uint32_t id) { return id == kNone ? kNothing : id; }
 
-/// Of the mean of n samples: their sample variance over n. Samples are stratified, so it is what independent ones would have.
-double variance_of_mean(const PixelSums& pixel) {
-  const double n = pixel.samples;
-  if (pixel.samples < 2) return std::numeric_limits<double>::quiet_NaN();
-  const double mean = luminance(pixel.reflected()) / n;
-  return std::max(0.0, pixel.squared_luminance / n - mean * mean) / (n - 1);
-}
-
 using P = PixelSums;
 using A = AovSums;
 constexpr Channel kChannels[] = {

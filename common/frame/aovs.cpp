@@ -36,13 +36,18 @@ AovSet given_by(const RenderRequest& request) {
 Result<AovSet> set_named(const std::string& name, const RenderRequest& request) {
   const AovSet given = given_by(request);
   if (name == "all") return given;
+  if (name == kLightGroups) {
+    if (request.mesh) return fail(Code::kInvalidArgument, "--aov light: --mesh draws over the light; leave one of them out");
+    return AovSet{0};
+  }
   if (std::find(kUnbuilt.begin(), kUnbuilt.end(), name) != kUnbuilt.end()) {
     return fail(Code::kUnimplemented, "--aov " + name + " is not built yet: use " + listed(given));
   }
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) {
     return fail(Code::kInvalidArgument,
-                "--aov: '" + name.substr(0, 80) + "' is not one of all, " + listed((AovSet{1} << kAovCount) - 1));
+                "--aov: '" + name.substr(0, 80) + "' is not one of all, " + listed((AovSet{1} << kAovCount) - 1) + ", " +
+                    kLightGroups);
   }
   const auto aov = static_cast<Aov>(found - kNames.begin());
   if (contains(given, aov)) return set_of(aov);
@@ -71,6 +76,10 @@ Result<AovSet> requested_aovs(const RenderRequest& request) {
     set |= one;
   }
   return set;
+}
+
+bool wants_light_groups(const RenderRequest& request) {
+  return std::find(request.aov.begin(), request.aov.end(), kLightGroups) != request.aov.end();
 }
 
 }  // namespace radfarm

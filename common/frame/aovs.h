@@ -18,4 +18,9 @@ std::vector<std::string> aov_names(AovSet set);
 /// unknown, and what the integrator gives when it does not give one; UNIMPLEMENTED where the contract has one that is not built.
 Result<AovSet> requested_aovs(const RenderRequest& request);
 
+/// The name that asks for light groups, layers light.NAME (frame/light_layers.h): no AOV of its own, as each group is an image of
+/// its own, and no part of "all", as it costs as much.
+inline constexpr const char* kLightGroups = "light";
+bool wants_light_groups(const RenderRequest& request);
+
 }  // namespace radfarm

@@ -11,10 +11,16 @@ int tiles_across(int pixels, int tile) { return (pixels + tile - 1) / tile; }
 
 }  // namespace
 
-std::vector<Task> cut_tasks(const Settings& settings) {
+std::size_t tile_count(const Settings& settings) {
+  return static_cast<std::size_t>(tiles_across(settings.width, settings.tile)) *
+         static_cast<std::size_t>(tiles_across(settings.height, settings.tile));
+}
+
+std::vector<Task> cut_tasks(const Settings& settings, std::size_t images) {
   std::vector<Task> tasks;
-  const int tiles = tiles_across(settings.width, settings.tile) * tiles_across(settings.height, settings.tile);
-  for (int i = 0; i < tiles; ++i) tasks.push_back({Task::Kind::kTile, static_cast<std::uint32_t>(i)});
+  for (std::size_t i = 0; i < images * tile_count(settings); ++i) {
+    tasks.push_back({Task::Kind::kTile, static_cast<std::uint32_t>(i)});
+  }
   const std::size_t audited =
       choose_audit_pixels(settings.width, settings.height, settings.audit_pixels, settings.seed).size();
   for (std::size_t first = 0; first < audited; first += kAuditPixelsPerTask) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,10 +11,13 @@
 
 namespace radfarm {
 
-/// Tiles row by row, then audit tasks. Requires: settings as decode_view() checks them.
-std::vector<Task> cut_tasks(const Settings& settings);
+/// Tiles row by row, of one image after the other, then audit tasks. Requires: settings as decode_views() checks them.
+std::vector<Task> cut_tasks(const Settings& settings, std::size_t images = 1);
 
-/// The pixels of tile `index`, cut off at the image's edge.
+/// Of one image.
+std::size_t tile_count(const Settings& settings);
+
+/// The pixels of tile `index` of an image, cut off at its edge.
 PixelRect tile_rect(const Settings& settings, std::uint32_t index);
 
 /// The audited pixels of audit task `index`.

@@ -29,7 +29,7 @@ namespace radfarm {
 struct PreparedFiles {
   std::vector<std::byte> scene;     // geometry, materials, lights
   std::vector<std::byte> solution;  // radiosity; nothing camera-dependent. Empty when no integrator needs it
-  std::vector<std::byte> view;      // camera, resolved settings, effects plan, grid, and what report() says of all stages
+  std::vector<std::byte> view;      // camera, resolved settings, grid, of each light group; what report() says of all stages
 };
 
 /// What prepare() may use besides scene and request. None of it changes a bit of scene, solution and image.
@@ -43,7 +43,7 @@ struct PrepareContext {
 Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request,
                               const PrepareContext& context = {});
 
-/// The tasks of a prepared view, in the order in which they are best run. Tiles, then audit tasks.
+/// The tasks of a prepared view, in the order in which they are best run. Tiles, light group by light group, then audit tasks.
 Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view);
 
 /// A prepared view opened for running tasks: acceleration structures built, arrays ready. Thread-safe when const.

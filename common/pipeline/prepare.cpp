@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
@@ -13,35 +14,22 @@
 #include "frame/aovs.h"
 #include "frame/view.h"
 #include "pipeline/expected_cost.h"
+#include "pipeline/light_groups.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/prepare_light.h"
 #include "pipeline/resolve.h"
-#include "pipeline/solve_light.h"
+#include "pipeline/stage_clock.h"
 #include "scene/light_scene.h"
 #include "scene/load_scene.h"
 #include "scene/scene_file.h"
 #include "scene/summary.h"
 #include "radiosity/element_mesh_file.h"
 #include "scene/world.h"
-#include "senders/sender_grid.h"
 
 namespace radfarm {
 namespace {
 
 using nlohmann::json;
-
-/// Times the stages of prepare() for the report.
-class StageClock {
- public:
-  void end_stage(const char* name) {
-    stages_.push_back({{"name", name}, {"wall_s", watch_.wall_seconds()}, {"cpu_s", watch_.cpu_seconds()}});
-    watch_ = Stopwatch();
-  }
-  json stages() const { return stages_; }
-
- private:
-  Stopwatch watch_;
-  json stages_ = json::array();
-};
 
 LoadOptions load_options(const RenderRequest& request) {
   LoadOptions options;
@@ -183,74 +171,78 @@ json energy_json(const EnergyLedger& energy) {
           {"closure_error", energy.closure_error}};
 }
 
-/// The light of a world as planned, and what the report says of it.
-Result<SolvedLight> obtain_light(const World& world, const RenderRequest& request, const PrepareContext& context,
-                                 LightForm form, Planned& planned) {
-  const bool is_reflecting = planned.plan.is_active("interreflection");
-  RADFARM_TRY(ObtainedLight obtained, obtain_light(world, {planned.settings.radiosity, request.seed, is_reflecting, form},
-                                                   context.solutions, context.progress));
-  const SolvedLight::Facts& facts = obtained.light.facts;
-  planned.facts["counts"]["links"] = facts.links;
-  planned.facts["counts"]["elements"] = facts.elements;
-  planned.facts["counts"]["radiosity_iterations"] = facts.iterations;
-  if (is_reflecting) planned.facts["energy"] = energy_json(facts.energy);
-  planned.facts["solution"] = {{"digest", obtained.light.digest}, {"reused", obtained.is_reused}};
-  return std::move(obtained.light);
+/// The world without the effects that are off; `made` holds it where it is another.
+const World& rendered_world(const Planned& planned, std::optional<World>& made) {
+  if (!changes_scene(planned.settings.effects_off)) return *planned.world;
+  return made.emplace(specialise(planned.world->scene, planned.settings.effects_off));
 }
 
-/// Without interreflection nothing is solved that a pilot image could show.
-void resolve_thresholds(const Planned& planned, float mean_radiance, SenderSettings& senders) {
-  if (!(senders.threshold_scale > 0)) return;
-  senders.threshold = grey_threshold(senders.threshold_scale, mean_radiance);
-  if (!planned.plan.is_active("interreflection")) senders.threshold_scale = 0;
-  senders.max_elevation = planned.plan.is_active("masking") ? kMaxElevation : 1;
+View view_of(const Planned& planned) { return {planned.camera.camera, planned.settings, "", {}, {}, ""}; }
+
+json group_rows(std::span<const EmitterGroup> groups) {
+  json rows = json::array();
+  for (const EmitterGroup& group : groups) rows.push_back({{"name", group.name}, {"power_lm", group.flux}});
+  return rows;
 }
 
-/// `masking_bound`: so much more than without masking may all that is interpolated at a point be wrong, mean over visible points.
-json perception_json(const VertexThresholds& perception, const SenderSettings& senders) {
-  const double elevation = mean_of(perception.elevation);
-  return {{"mean_threshold", perception.mean}, {"mean_threshold_without_masking", perception.mean_plain},
-          {"exposure_ev", perception.exposure_ev}, {"display_white", kDisplayWhite}, {"max_elevation", senders.max_elevation},
-          {"mean_elevation", elevation > 0 ? json(elevation) : json()},
-          {"masking_bound", kMaxTail * (perception.mean - perception.mean_plain)}};
+/// One light a group, each by its emitters alone; without groups one by all.
+Result<std::vector<PreparedLight>> prepare_lights(const World& world, std::span<const EmitterGroup> groups,
+                                                  const PlannedView& planned, StageClock& clock) {
+  std::vector<PreparedLight> lights;
+  if (groups.empty()) {
+    RADFARM_TRY(PreparedLight light, prepare_light(world, planned, clock));
+    lights.push_back(std::move(light));
+  }
+  for (const EmitterGroup& group : groups) {
+    View view = planned.view;
+    view.light_group = group.name;
+    view.settings.seed = seed_of_light_group(view.settings.seed, lights.size());
+    const World lit(world, group.shining);
+    RADFARM_TRY(PreparedLight light, prepare_light(lit, {planned.request, planned.context, planned.plan, view}, clock));
+    lights.push_back(std::move(light));
+  }
+  return lights;
 }
 
-/// Senders and grid of a view that gathers.
-Status prepare_gather(const World& world, const SolvedLight& light, const RenderRequest& request, const PrepareContext& context,
-                      StageClock& clock, Planned& planned, View& view) {
-  RADFARM_TRY(const SenderTree tree, decode_sender_tree(light.file));
-  Settings& settings = view.settings;
-  resolve_thresholds(planned, static_cast<float>(light.facts.mean_radiance), settings.senders);
-  ClassifiedView classified = classify_visible(world, tree, view.camera, settings.width, settings.height, settings.senders,
-                                               settings.seed, context.progress);
-  RADFARM_TRY_STATUS(context.progress.check());
-  // Of a view that sees nothing reflect, the whole scene's.
-  const double mean = classified.seen_radiance > 0 ? classified.seen_radiance : light.facts.mean_radiance;
-  settings.noise = noise_share(request) * static_cast<float>(mean);
-  const SenderGridFile& grid = classified.file;
-  view.grid = encode(grid);
-  planned.facts["perception"] = perception_json(classified.perception, settings.senders);
-  if (settings.senders.max_elevation > 1) view.elevation = std::move(classified.perception.elevation);
-  planned.facts["counts"]["grid_vertices"] = grid.grid.vertex_count();
-  planned.facts["counts"]["grid_vertices_used"] = grid.vertices.size();
-  clock.end_stage("senders");
-  return {};
+/// What the report says of all light, and of each group's.
+void add_facts(std::span<const PreparedLight> lights, std::span<const std::byte> solution, json& facts) {
+  PreparedLight all;
+  bool is_reused = true;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    add_facts(lights[i], all);
+    if (!lights[i].view.light_group.empty()) facts["light_groups"][i].update(lights[i].said);
+    is_reused = is_reused && lights[i].said.contains("solution") && lights[i].said["solution"]["reused"].get<bool>();
+  }
+  facts["counts"] = all.counts;
+  if (all.energy) facts["energy"] = energy_json(*all.energy);
+  if (lights.size() == 1) facts.update(lights[0].said);
+  if (lights.size() > 1 && !solution.empty()) facts["solution"] = {{"digest", sha256_hex(solution)}, {"reused", is_reused}};
 }
 
-/// Radiosity in the scene without the effects that are off, and what the integrator makes of it.
-Status prepare_light(const RenderRequest& request, const PrepareContext& context, StageClock& clock, Planned& planned,
-                     View& view, PreparedFiles& files) {
-  std::optional<World> specialised;
-  const EffectSet off = planned.settings.effects_off;
-  if (changes_scene(off)) specialised.emplace(specialise(planned.world->scene, off));
-  const World& world = specialised ? *specialised : *planned.world;
-  const bool is_shown = view.settings.integrator == Settings::Integrator::kRadiosity;
-  const bool needs_all = request.integrator == RenderRequest::Integrator::kFullGather || request.gather == Gather::kPaper;
-  const LightForm form = is_shown ? LightForm::kElements : (needs_all ? LightForm::kAllSenders : LightForm::kSenders);
-  RADFARM_TRY(SolvedLight light, obtain_light(world, request, context, form, planned));
-  clock.end_stage("radiosity");
-  if (!is_shown) RADFARM_TRY_STATUS(prepare_gather(world, light, request, context, clock, planned, view));
-  files.solution = std::move(light.file);
+/// Whether anything is to be known of light before a worker asks.
+bool needs_world(const Planned& planned, const RenderRequest& request) {
+  return planned.settings.integrator != Settings::Integrator::kPathTrace || wants_light_groups(request);
+}
+
+/// Solutions and views, of each light group or of all light, and what is said of them.
+Status prepare_views(const RenderRequest& request, const PrepareContext& context, StageClock& clock, Planned& planned,
+                     PreparedFiles& files) {
+  std::optional<World> made;
+  const World& world = needs_world(planned, request) ? rendered_world(planned, made) : *planned.world;
+  RADFARM_TRY(const std::vector<EmitterGroup> groups, requested_light_groups(world, request));
+  if (wants_light_groups(request)) planned.facts["light_groups"] = group_rows(groups);
+  const View view = view_of(planned);
+  RADFARM_TRY(std::vector<PreparedLight> lights, prepare_lights(world, groups, {request, context, planned.plan, view}, clock));
+  std::vector<std::vector<std::byte>> solutions;
+  for (PreparedLight& light : lights) solutions.push_back(std::move(light.solution));
+  if (!solutions[0].empty()) files.solution = encode_solutions(solutions);
+  add_facts(lights, files.solution, planned.facts);
+  planned.facts["stages"] = clock.stages();
+  planned.facts["peak_memory_bytes"] = peak_memory_bytes();
+  std::vector<View> views;
+  for (PreparedLight& light : lights) views.push_back(std::move(light.view));
+  views[0].facts = planned.facts.dump();
+  files.view = encode(views);
   return {};
 }
 
@@ -261,14 +253,7 @@ Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const Ren
   StageClock clock;
   RADFARM_TRY(Planned planned, plan(scene_file, request, context.progress, clock));
   PreparedFiles files;
-  View view{planned.camera.camera, planned.settings, "", {}, {}};
-  if (view.settings.integrator != Settings::Integrator::kPathTrace) {
-    RADFARM_TRY_STATUS(prepare_light(request, context, clock, planned, view, files));
-  }
-  planned.facts["stages"] = clock.stages();
-  planned.facts["peak_memory_bytes"] = peak_memory_bytes();
-  view.facts = planned.facts.dump();
-  files.view = encode(view);
+  RADFARM_TRY_STATUS(prepare_views(request, context, clock, planned, files));
   files.scene = std::move(planned.scene_bytes);
   return files;
 }
@@ -278,8 +263,9 @@ Result<Baked> bake(const std::filesystem::path& scene_file, const RenderRequest&
   StageClock clock;
   RADFARM_TRY(Planned planned, plan(scene_file, request, context.progress, clock));
   const World world(specialise(planned.world->scene, planned.settings.effects_off));
-  RADFARM_TRY(const SolvedLight light, obtain_light(world, request, context, LightForm::kElements, planned));
-  RADFARM_TRY(const ElementMesh mesh, decode_element_mesh(light.file, SideNumbers(world.scene).count));
+  const View view = view_of(planned);
+  RADFARM_TRY(const ObtainedLight obtained, obtain_light(world, {request, context, planned.plan, view}, LightForm::kElements));
+  RADFARM_TRY(const ElementMesh mesh, decode_element_mesh(obtained.light.file, SideNumbers(world.scene).count));
   context.progress.report("glTF");
   Baked baked;
   baked.exposure_ev = exposure_ev ? *exposure_ev : auto_exposure(world, mesh);
@@ -295,7 +281,15 @@ Result<json> explain(const std::filesystem::path& scene_file, const RenderReques
   StageClock clock;
   RADFARM_TRY(Planned planned, plan(scene_file, request, Progress(), clock));
   planned.facts["settings"]["resolved"] = to_json(planned.settings);
-  const ExpectedCost cost = expect_cost(*planned.world, planned.camera.camera, planned.settings);
+  std::optional<World> made;
+  const World& world = wants_light_groups(request) ? rendered_world(planned, made) : *planned.world;
+  RADFARM_TRY(const std::vector<EmitterGroup> groups, requested_light_groups(world, request));
+  if (wants_light_groups(request)) planned.facts["light_groups"] = group_rows(groups);
+  ExpectedCost cost = expect_cost(*planned.world, planned.camera.camera, planned.settings);
+  // Each group is an image of its own; the audit is of their sum.
+  const double images = groups.empty() ? 1 : static_cast<double>(groups.size());
+  cost.low = images * (cost.low - cost.audit) + cost.audit;
+  cost.high = images * (cost.high - cost.audit) + cost.audit;
   planned.facts["expected"] = {{"cpu_s", {cost.low, cost.high}}, {"audit_cpu_s", cost.audit}, {"ray_s", cost.ray_seconds}};
   planned.facts["stages"] = clock.stages();
   return planned.facts;

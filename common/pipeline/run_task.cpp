@@ -7,6 +7,7 @@
 #include "estimate/path_reference.h"
 #include "estimate/task_result.h"
 #include "frame/tasks.h"
+#include "pipeline/light_groups.h"
 #include "pipeline/prepared.h"
 #include "radiosity/element_mesh_file.h"
 #include "scene/scene_file.h"
@@ -26,32 +27,32 @@ SampleRadiance path_integrator(const World& world, bool has_interreflection) {
   };
 }
 
-SampleRadiance gouraud_integrator(const Prepared::Parts& parts, const Film& film) {
-  const GouraudContext context{parts.world, *parts.mesh, *parts.sides};
+SampleRadiance gouraud_integrator(const LitView& lit, const Film& film) {
+  const GouraudContext context{lit.world, *lit.mesh, *lit.sides};
   const SampleRadiance shaded = [context](const Ray& ray, const PixelSampler& sampler, Counters& counters,
                                           FirstSurface* first) {
     return gouraud_radiance(context, ray, sampler, counters, first);
   };
-  return parts.view.settings.draws_mesh != 0 ? with_mesh_lines(shaded, context, film) : shaded;
+  return lit.view.settings.draws_mesh != 0 ? with_mesh_lines(shaded, context, film) : shaded;
 }
 
-GatherContext gather_context(const Prepared::Parts& parts) {
-  return {parts.world, parts.tree, *parts.lookup, *parts.senders, parts.view.settings.senders, parts.has_interreflection()};
+GatherContext gather_context(const LitView& lit) {
+  return {lit.world, lit.tree, *lit.lookup, *lit.senders, lit.view.settings.senders, lit.has_interreflection()};
 }
 
 /// Only the gather has a cheaper way to see emission alone; it is asked where pixels may differ in samples.
-SampleEmission emission_integrator(const Prepared::Parts& parts) {
-  if (!parts.senders || parts.is_paper()) return {};
-  return [context = gather_context(parts)](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
+SampleEmission emission_integrator(const LitView& lit) {
+  if (!lit.senders || lit.is_paper()) return {};
+  return [context = gather_context(lit)](const Ray& ray, const PixelSampler& sampler, Counters& counters) {
     return gather_emission(context, ray, sampler, counters);
   };
 }
 
-SampleRadiance integrator(const Prepared::Parts& parts, const Film& film) {
-  if (parts.mesh) return gouraud_integrator(parts, film);
-  if (!parts.senders) return path_integrator(parts.world, parts.has_interreflection());
-  const GatherContext context = gather_context(parts);
-  if (parts.is_paper()) {
+SampleRadiance integrator(const LitView& lit, const Film& film) {
+  if (lit.mesh) return gouraud_integrator(lit, film);
+  if (!lit.senders) return path_integrator(lit.world, lit.has_interreflection());
+  const GatherContext context = gather_context(lit);
+  if (lit.is_paper()) {
     return [context](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
       return paper_gather_radiance(context, ray, sampler, counters, first);
     };
@@ -61,21 +62,21 @@ SampleRadiance integrator(const Prepared::Parts& parts, const Film& film) {
   };
 }
 
-std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t index) {
-  const Settings& settings = parts.view.settings;
+std::vector<std::byte> run_tile(const LitView& lit, std::uint32_t index) {
+  const Settings& settings = lit.view.settings;
   TileResult result;
   result.rect = tile_rect(settings, index);
-  Film film = film_of(parts.view, settings.effects_off);
+  Film film = film_of(lit.view, settings.effects_off);
   film.cone_samples = settings.camera_samples;
-  const SampleRadiance radiance = integrator(parts, film);
+  const SampleRadiance radiance = integrator(lit, film);
   const SampleBudget budget{settings.camera_samples, settings.max_camera_samples, settings.noise};
-  if (parts.is_paper()) {
-    result.pixels = render_paper_tile(parts.world, film, result.rect, settings.camera_samples, radiance, result.counters);
+  if (lit.is_paper()) {
+    result.pixels = render_paper_tile(lit.world, film, result.rect, settings.camera_samples, radiance, result.counters);
     return encode(result);
   }
   const Kept kept{settings.aovs != 0, settings.shares_light != 0};
   TilePixels tile = render_tile(film, result.rect, budget, radiance, result.counters, kept,
-                                emission_integrator(parts));
+                                emission_integrator(lit));
   result.pixels = std::move(tile.light);
   result.aovs = std::move(tile.aovs);
   result.sharing = std::move(tile.sharing);
@@ -83,9 +84,9 @@ std::vector<std::byte> run_tile(const Prepared::Parts& parts, std::uint32_t inde
 }
 
 std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t index) {
-  const Settings& settings = parts.view.settings;
+  const Settings& settings = parts.settings;
   // Its rays are lines: the audit is to see what filtering does.
-  const Film film = film_of(parts.view, settings.exactly_off);
+  const Film film = film_of(parts.lit[0]->view, settings.exactly_off);
   const bool has_interreflection = !contains(settings.exactly_off, Effect::kInterreflection);
   const SampleRadiance path = path_integrator(parts.audited(), has_interreflection);
   AuditResult result;
@@ -100,11 +101,33 @@ std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t ind
   return encode(result);
 }
 
+/// With what its integrator needs.
+Result<std::unique_ptr<LitView>> open_lit(View view, const World& world, std::optional<Shining> some,
+                                          std::span<const std::byte> solution) {
+  const Settings settings = view.settings;
+  const std::vector<std::byte> grid_bytes = std::move(view.grid);  // not kept once it is decoded
+  SenderTree tree;
+  if (settings.integrator == Settings::Integrator::kGather) {
+    RADFARM_TRY(tree, decode_sender_tree(solution));
+  }
+  auto lit = std::make_unique<LitView>(std::move(view), world, std::move(some), std::move(tree));
+  if (settings.integrator == Settings::Integrator::kRadiosity) {
+    lit->sides.emplace(world.scene);
+    RADFARM_TRY(lit->mesh, decode_element_mesh(solution, lit->sides->count));
+  }
+  if (settings.integrator != Settings::Integrator::kGather) return lit;
+  RADFARM_TRY(SenderGridFile grid, decode_sender_grid(grid_bytes, lit->view.camera, lit->tree,
+                                                      lit->world.environment.patches().size()));
+  lit->lookup.emplace(lit->world, lit->tree);
+  lit->senders.emplace(std::move(grid), lit->world, lit->tree, lit->view.settings.senders, settings.seed);
+  return lit;
+}
+
 }  // namespace
 
 const World& Prepared::Parts::audited() const {
   if (is_exact()) return world;
-  std::call_once(is_audited, [&] { audit_world.emplace(specialise(scene, view.settings.exactly_off)); });
+  std::call_once(is_audited, [&] { audit_world.emplace(specialise(scene, settings.exactly_off)); });
   return *audit_world;
 }
 
@@ -115,42 +138,38 @@ Prepared::~Prepared() = default;
 
 Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<const std::byte> solution,
                                 std::span<const std::byte> view) {
-  RADFARM_TRY(View opened, decode_view(view));
+  RADFARM_TRY(std::vector<View> views, decode_views(view));
   RADFARM_TRY(Scene decoded, decode_scene(scene));
-  const Settings settings = opened.settings;
-  const std::vector<std::byte> grid_bytes = std::move(opened.grid);  // not kept once it is decoded
-  if (settings.integrator == Settings::Integrator::kPathTrace) {
-    return Prepared(std::make_unique<Parts>(std::move(opened), std::move(decoded), SenderTree()));
+  auto parts = std::make_unique<Parts>(views[0].settings, std::move(decoded));
+  std::vector<std::span<const std::byte>> solutions(views.size());
+  if (parts->settings.integrator != Settings::Integrator::kPathTrace) {
+    RADFARM_TRY(solutions, decode_solutions(solution, views.size()));
   }
-  if (settings.integrator == Settings::Integrator::kRadiosity) {
-    const SideNumbers sides(decoded);
-    RADFARM_TRY(ElementMesh mesh, decode_element_mesh(solution, sides.count));
-    auto parts = std::make_unique<Parts>(std::move(opened), std::move(decoded), SenderTree());
-    parts->mesh = std::move(mesh);
-    parts->sides = sides;
-    return Prepared(std::move(parts));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::optional<Shining> some;
+    if (!views[i].light_group.empty()) {
+      RADFARM_TRY(some, shining_of(parts->world, i, views[i].light_group));
+    }
+    RADFARM_TRY(std::unique_ptr<LitView> lit, open_lit(std::move(views[i]), parts->world, std::move(some), solutions[i]));
+    parts->lit.push_back(std::move(lit));
   }
-  RADFARM_TRY(SenderTree tree, decode_sender_tree(solution));
-  auto parts = std::make_unique<Parts>(std::move(opened), std::move(decoded), std::move(tree));
-  RADFARM_TRY(SenderGridFile grid, decode_sender_grid(grid_bytes, parts->view.camera, parts->tree,
-                                                      parts->world.environment.patches().size()));
-  parts->lookup.emplace(parts->world, parts->tree);
-  parts->senders.emplace(std::move(grid), parts->world, parts->tree, parts->view.settings.senders, settings.seed);
   return Prepared(std::move(parts));
 }
 
 Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view) {
-  RADFARM_TRY(const View opened, decode_view(view));
-  return cut_tasks(opened.settings);
+  RADFARM_TRY(const std::vector<View> views, decode_views(view));
+  return cut_tasks(views[0].settings, views.size());
 }
 
 Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task) {
-  const std::vector<Task> tasks = cut_tasks(prepared.parts().view.settings);
+  const Prepared::Parts& parts = prepared.parts();
+  const std::vector<Task> tasks = cut_tasks(parts.settings, parts.lit.size());
   if (std::find(tasks.begin(), tasks.end(), task) == tasks.end()) {
     return fail(Code::kInvalidArgument, "the view has no such task");
   }
-  if (task.kind == Task::Kind::kAudit) return run_audit(prepared.parts(), task.index);
-  return run_tile(prepared.parts(), task.index);
+  if (task.kind == Task::Kind::kAudit) return run_audit(parts, task.index);
+  const auto tiles = static_cast<std::uint32_t>(tile_count(parts.settings));
+  return run_tile(*parts.lit[task.index / tiles], task.index % tiles);
 }
 
 }  // namespace radfarm

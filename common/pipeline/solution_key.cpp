@@ -17,7 +17,7 @@ std::string light_digest(Scene scene) {
 }  // namespace
 
 std::string solution_key(const Scene& scene, const RadiositySettings& settings, std::uint64_t seed, bool is_reflecting,
-                         LightForm form) {
+                         LightForm form, const Shining& shining) {
   Sha256 hash;
   hash.update(build_id());
   hash.update(program_digest());
@@ -27,6 +27,11 @@ std::string solution_key(const Scene& scene, const RadiositySettings& settings, 
   hash.update_value(seed);
   hash.update_value(is_reflecting ? 1U : 0U);
   hash.update_value(static_cast<std::uint64_t>(form));
+  for (const std::vector<std::uint8_t>* which : {&shining.materials, &shining.lights}) {
+    hash.update_value(static_cast<std::uint64_t>(which->size()));
+    hash.update(std::as_bytes(std::span(*which)));
+  }
+  hash.update_value(shining.environment ? 1U : 0U);
   return hash.hex();
 }
 

@@ -34,8 +34,9 @@ std::vector<std::byte> make_file(const World& world, const RadiositySolution& so
 Result<ObtainedLight> obtain_light(const World& world, const WantedLight& wanted, const SolutionStore& store,
                                    const Progress& progress) {
   progress.report("radiosity");
-  const std::string key =
-      store.keeps() ? solution_key(world.scene, wanted.settings, wanted.seed, wanted.is_reflecting, wanted.form) : "";
+  const std::string key = store.keeps() ? solution_key(world.scene, wanted.settings, wanted.seed, wanted.is_reflecting,
+                                                       wanted.form, world.shining)
+                                        : "";
   if (std::optional<SolvedLight> known = store.find(key)) return ObtainedLight{std::move(*known), true};
   const RadiositySolution solution = wanted.is_reflecting ? solve_radiosity(world, wanted.settings, wanted.seed, progress)
                                                           : emitters_alone(world, wanted.seed, progress);

@@ -39,7 +39,7 @@ Spectrum by_ray(const World& world, const SurfacePoint& point, const Vec2& u, st
   SurfacePoint target = world.surfaces.at(*hit);
   face(target, -ray.direction);
   const float weight = balance_of_hit(world, *hit, point.position, ray.direction, pdf);
-  return world.surfaces.emission(target) * hit->weight * (weight * kPi);
+  return world.emission(target) * hit->weight * (weight * kPi);
 }
 
 Spectrum estimate_at(const World& world, const SurfacePoint& point, std::uint32_t i, std::uint64_t key) {

@@ -36,7 +36,7 @@ void average_material(const World& world, const Hit& corner, bool is_front, Patc
       point.is_front = is_front;
       const auto coverage = static_cast<double>(world.surfaces.coverage(hit));
       reflectance += coverage * SpectrumD(world.surfaces.reflectance(point));
-      emission += coverage * SpectrumD(world.surfaces.emission(point));
+      emission += coverage * SpectrumD(world.emission(point));
       ++count;
     }
   }

@@ -15,7 +15,7 @@ EmittedRay emit_from_triangle(const World& world, const EmissiveTriangle& t, Vec
   SurfacePoint point = world.surfaces.at({t.instance, t.triangle, is_mirrored ? b.z : b.y, is_mirrored ? b.y : b.z, 0});
   if (is_back) face(point, -point.geometric_normal);
   const Vec3 way = Frame(point.geometric_normal).to_world(sample_cosine_hemisphere(direction));
-  const Spectrum power = world.surfaces.emission(point) * (kPi * t.area * (t.both_sides ? 2.0F : 1.0F));
+  const Spectrum power = world.emission(point) * (kPi * t.area * (t.both_sides ? 2.0F : 1.0F));
   return {{leave(point), normalize(way)}, power, point.geometric_normal};
 }
 

@@ -60,7 +60,7 @@ NextEvent sample_triangle(const World& world, const SurfacePoint& point, std::ui
   event.direction = offset / distance;
   face(target, -event.direction);
   if (!is_open(point, event.direction, sees_behind)) return {};
-  const Spectrum radiance = world.surfaces.emission(target);
+  const Spectrum radiance = world.emission(target);
   event.pdf = pdf_emitter(world, index, point.position, event.direction, distance);
   if (is_black(radiance) || !(event.pdf > 0)) return {};
   event.traced = true;

@@ -38,12 +38,12 @@ double luminous_flux(const PunctualEmitter& light, double radius) {
   return 2 * std::numbers::pi * intensity * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
 }
 
-void collect_triangles(const Surfaces& surfaces, std::uint32_t instance, Emitters& emitters) {
+void collect_triangles(const Surfaces& surfaces, std::uint32_t instance, const Shining& shining, Emitters& emitters) {
   const Mesh& mesh = surfaces.scene().meshes[surfaces.scene().instances[instance].mesh];
   const Material& material = surfaces.scene().materials[mesh.material];
   emitters.first_of_instance.push_back(kNone);
   if (material.is_switched_off) emitters.declared_triangles += mesh.triangles.size();
-  if (is_black(material.emission)) return;
+  if (is_black(material.emission) || !shining.material(mesh.material)) return;
   emitters.first_of_instance.back() = static_cast<std::uint32_t>(emitters.slot.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     EmissiveTriangle emitter;
@@ -80,11 +80,13 @@ Spectrum intensity(const PunctualEmitter& light, const Vec3& way) {
   return light.intensity * (t * t);
 }
 
-Emitters find_emitters(const Surfaces& surfaces, const EnvironmentLight& environment, float radius) {
+Emitters find_emitters(const Surfaces& surfaces, const EnvironmentLight& environment, float radius, const Shining& shining) {
   Emitters emitters;
-  for (std::uint32_t i = 0; i < surfaces.scene().instances.size(); ++i) collect_triangles(surfaces, i, emitters);
-  for (const PunctualLight& light : surfaces.scene().lights) {
-    if (!(luminance(light.intensity) > 0)) continue;
+  for (std::uint32_t i = 0; i < surfaces.scene().instances.size(); ++i) collect_triangles(surfaces, i, shining, emitters);
+  const std::vector<PunctualLight>& lights = surfaces.scene().lights;
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
+    const PunctualLight& light = lights[i];
+    if (!(luminance(light.intensity) > 0) || !shining.light(i)) continue;
     PunctualEmitter emitter{light, nullptr, {}};
     if (light.photometry != kNone && light.kind != PunctualLight::Kind::kDirectional) {
       emitter.table = &surfaces.scene().photometries[light.photometry];
@@ -92,8 +94,9 @@ Emitters find_emitters(const Surfaces& surfaces, const EnvironmentLight& environ
       emitter.sampler = PhotometrySampler(*emitter.table);
     }
     emitters.punctual.push_back(std::move(emitter));
+    emitters.light_of_punctual.push_back(i);
   }
-  std::vector<double> flux;
+  std::vector<double>& flux = emitters.flux;
   for (const EmissiveTriangle& t : emitters.triangles) flux.push_back(luminous_flux(t));
   for (const PunctualEmitter& light : emitters.punctual) flux.push_back(luminous_flux(light, radius));
   emitters.has_environment = !environment.is_empty();

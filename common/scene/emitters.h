@@ -6,6 +6,7 @@
 #include "math/sampling.h"
 #include "scene/environment_light.h"
 #include "scene/photometry.h"
+#include "scene/shining.h"
 #include "scene/surface.h"
 
 namespace radfarm {
@@ -33,7 +34,9 @@ struct Emitters {
   std::vector<EmissiveTriangle> triangles;
   std::vector<PunctualEmitter> punctual;
   bool has_environment = false;
+  std::vector<std::uint32_t> light_of_punctual;  // each one's index in the scene
   DiscreteDistribution choice;           // over triangles, then punctual lights, then the environment
+  std::vector<double> flux;              // lm, of each of these
   double total_flux = 0;                 // lm, of all
   std::size_t declared_triangles = 0;    // of materials that emit or are switched off
 
@@ -45,9 +48,10 @@ struct Emitters {
   std::vector<std::uint32_t> slot;               // per triangle of emitting instances
 };
 
-/// Collects the emitters. Zero-power ones are left out of `triangles` but counted. `radius` is the scene's: a directional light
-/// counts with what passes through a disk that large, and so does the environment. Borrows the scene's photometries. Cost: O(emissive triangles).
-Emitters find_emitters(const Surfaces& surfaces, const EnvironmentLight& environment, float radius);
+/// Collects the emitters that shine. Zero-power ones are left out of `triangles` but counted. `radius` is the scene's: a
+/// directional light counts with what passes through a disk that large, and so does the environment. Borrows the scene's
+/// photometries. Cost: O(emissive triangles).
+Emitters find_emitters(const Surfaces& surfaces, const EnvironmentLight& environment, float radius, const Shining& shining = {});
 
 /// What a point, spot or IES light sends in unit direction `way`, cd.
 Spectrum intensity(const PunctualEmitter& light, const Vec3& way);

@@ -12,6 +12,7 @@ inline constexpr std::size_t kTriangles = 100'000'000;       // stored ones; ins
 inline constexpr std::size_t kVertices = 300'000'000;        // of one accessor or of one OBJ file
 inline constexpr std::size_t kInstances = 10'000'000;
 inline constexpr std::size_t kLights = 1'000'000;
+inline constexpr std::size_t kLightGroups = 16;                     // an image each
 inline constexpr std::size_t kTextureSide = 16'384;                   // pixels
 inline constexpr std::size_t kIesFileBytes = 16U << 20U;              // a photometric file
 inline constexpr std::size_t kUnpackedBytes = 0xffffffffU;          // 4 GiB: what compressed geometry unpacks to

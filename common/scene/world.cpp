@@ -28,13 +28,33 @@ float radius_about_origin(const Box3& bounds) {
 
 }  // namespace
 
+struct World::Geometry {
+  explicit Geometry(Scene loaded) : scene(std::move(loaded)), surfaces(scene), caster(surfaces) {}
+  const Scene scene;
+  const Surfaces surfaces;
+  const RayCaster caster;
+};
+
 World::World(Scene loaded)
-    : scene(std::move(loaded)),
-      surfaces(scene),
-      caster(surfaces),
+    : own_(std::make_unique<const Geometry>(std::move(loaded))),
+      scene(own_->scene),
+      surfaces(own_->surfaces),
+      caster(own_->caster),
       bounds(find_bounds(surfaces)),
       radius(radius_about_origin(bounds)),
       environment(scene.environment),
-      emitters(find_emitters(surfaces, environment, radius)) {}
+      emitters(find_emitters(surfaces, environment, radius, shining)) {}
+
+World::World(const World& all, Shining some)
+    : scene(all.scene),
+      surfaces(all.surfaces),
+      caster(all.caster),
+      bounds(all.bounds),
+      radius(all.radius),
+      shining(std::move(some)),
+      environment(shining.environment ? scene.environment : dark_),
+      emitters(find_emitters(surfaces, environment, radius, shining)) {}
+
+World::~World() = default;
 
 }  // namespace radfarm

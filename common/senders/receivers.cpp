@@ -15,7 +15,7 @@ constexpr std::uint64_t kPrepassKey = 0x70726570;  // "prep"
 constexpr float kMargin = 1.02F;                   // the grid reaches a little beyond the depths seen
 
 VisiblePoints::Light light_at(const World& world, const ReflectorLookup& lookup, const Hit& hit, const SurfacePoint& point) {
-  VisiblePoints::Light light{luminance(world.surfaces.emission(point)), -1};
+  VisiblePoints::Light light{luminance(world.emission(point)), -1};
   const std::uint32_t id = lookup.find(hit, point);
   if (id == kNone) return light;
   const Reflector& reflector = lookup.tree().reflectors[id];

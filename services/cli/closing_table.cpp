@@ -45,6 +45,16 @@ std::string counts_table(const json& counts) {
   return text;
 }
 
+std::string light_groups_table(const json& groups) {
+  std::string text = format("%-36s %12s %12s\n", "light group", "lm", "of the image");
+  for (const json& group : groups) {
+    if (!group.is_object()) continue;
+    const std::string name = "light." + group.value("name", std::string("?"));
+    text += format("%-36s %12.4g %10.1f %%\n", name.c_str(), number(group, "power_lm"), 100 * number(group, "share_of_image"));
+  }
+  return text;
+}
+
 /// The ids that are on, and those that are off, in two lines.
 std::string effects_lines(const json& effects) {
   std::string on;
@@ -98,10 +108,16 @@ std::string effects_table(const json& plan) {
     text += "what is off can change reflected light by at most " + short_text(bound.value("mean", json())) +
             " cd/m^2 in the mean and " + short_text(bound.value("max", json())) + " at a pixel\n";
   }
+  const json groups = plan.value("light_groups", json::array());
+  for (const json& group : groups) {
+    if (!group.is_object()) continue;
+    text += "light." + group.value("name", std::string("?")) + format(": %.4g lm\n", number(group, "power_lm"));
+  }
   if (plan.contains("expected") && is_interval(plan["expected"].value("cpu_s", json()))) {
     const json& cost = plan["expected"];
-    text += format("expected cost: %.1f to %.1f CPU s, of which the audit %.1f\n", cost["cpu_s"][0].get<double>(),
+    text += format("expected cost: %.1f to %.1f CPU s, of which the audit %.1f", cost["cpu_s"][0].get<double>(),
                    cost["cpu_s"][1].get<double>(), number(cost, "audit_cpu_s"));
+    text += groups.size() > 1 ? format("; %zu light groups are as many renders\n", groups.size()) : "\n";
   }
   return text;
 }
@@ -110,6 +126,7 @@ std::string closing_table(const json& report) {
   std::string text;
   if (report.contains("stages")) text += stages_table(report["stages"]) + "\n";
   if (report.contains("counts")) text += counts_table(report["counts"]) + "\n";
+  if (report.contains("light_groups")) text += light_groups_table(report["light_groups"]) + "\n";
   if (report.contains("effects")) text += effects_lines(report["effects"]);
   if (report.contains("warnings")) {
     for (const json& warning : report["warnings"]) text.append("warning: ").append(short_text(warning)).append("\n");

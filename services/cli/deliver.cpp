@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "frame/aov_picture.h"
 #include "frame/aovs.h"
+#include "frame/light_layers.h"
 #include "image/exr.h"
 #include "image/png.h"
 #include "image/tone_map.h"
@@ -29,18 +30,39 @@ Result<std::vector<std::byte>> download(FarmClient& client, const JobStatus& job
   return client.blobs().download(found->blob.digest, limits::kBlobBytes, progress);
 }
 
+/// Stops, as asked for or by the image.
+Result<float> exposure_of(const Image& image, const Outputs& outputs) {
+  RADFARM_TRY(const std::optional<float> exposure, parse_exposure(outputs.exposure));
+  return exposure ? *exposure : auto_exposure(image);
+}
+
 Status write_png(std::span<const std::byte> exr, const Outputs& outputs) {
   RADFARM_TRY(const Image image, decode_exr(exr));
-  RADFARM_TRY(const std::optional<float> exposure, parse_exposure(outputs.exposure));
-  RADFARM_TRY(const std::vector<std::byte> png, encode_png(image, exposure ? *exposure : auto_exposure(image)));
+  RADFARM_TRY(const float exposure, exposure_of(image, outputs));
+  RADFARM_TRY(const std::vector<std::byte> png, encode_png(image, exposure));
   return write_file_atomically(outputs.png, png);
 }
 
-/// FOLDER/NAME.png of each AOV of the image.
-Status write_aov_pictures(std::span<const std::byte> exr, const std::filesystem::path& folder) {
+/// FOLDER/light.NAME.png of each light group, all at the exposure of the whole image.
+Status write_light_pictures(const Image& image, const Outputs& outputs) {
+  RADFARM_TRY(const float exposure, exposure_of(image, outputs));
+  for (const std::string& group : light_groups_of(image)) {
+    const std::filesystem::path file = outputs.aov_png / ("light." + group + ".png");
+    RADFARM_TRY(const std::vector<std::byte> png, encode_png(light_layer(image, group), exposure));
+    RADFARM_TRY_STATUS(write_file_atomically(file, png));
+    std::printf("%-28s as the image, at %.2f EV\n", file.filename().c_str(), static_cast<double>(exposure));
+  }
+  return {};
+}
+
+/// FOLDER/NAME.png of each AOV and light group of the image.
+Status write_aov_pictures(std::span<const std::byte> exr, const Outputs& outputs) {
+  const std::filesystem::path& folder = outputs.aov_png;
   RADFARM_TRY(const Image image, decode_exr(exr));
   const AovSet aovs = aovs_of(image);
-  if (aovs == 0) return fail(Code::kFailedPrecondition, "--aov-png: the image has no AOVs; render it with --aov");
+  if (aovs == 0 && light_groups_of(image).empty()) {
+    return fail(Code::kFailedPrecondition, "--aov-png: the image has no AOVs; render it with --aov");
+  }
   std::error_code error;
   std::filesystem::create_directory(folder, error);
   if (error) return fail(Code::kPermissionDenied, folder.string() + ": cannot be created: " + error.message());
@@ -54,7 +76,7 @@ Status write_aov_pictures(std::span<const std::byte> exr, const std::filesystem:
     RADFARM_TRY_STATUS(write_file_atomically(file, png));
     std::printf("%-28s %s\n", file.filename().c_str(), picture.legend.c_str());
   }
-  return {};
+  return write_light_pictures(image, outputs);
 }
 
 Status check_writable(const std::filesystem::path& folder, const std::filesystem::path& for_what) {
@@ -95,8 +117,8 @@ Status check_folder(const std::filesystem::path& file) {
 void add_output_flags(CLI::App& app, Outputs& outputs) {
   app.add_option("-o,--output", outputs.exr, "OUT.exr: scene-linear image with its layers")->required();
   app.add_option("--png", outputs.png, "OUT.png: for viewing");
-  app.add_option("--exposure", outputs.exposure, "EV (stops) or auto, for --png");
-  app.add_option("--aov-png", outputs.aov_png, "FOLDER for a false-colour NAME.png of each layer of --aov");
+  app.add_option("--exposure", outputs.exposure, "EV (stops) or auto, for --png and the light groups of --aov-png");
+  app.add_option("--aov-png", outputs.aov_png, "FOLDER for a NAME.png of each layer of --aov: false colours; light.NAME exposed as the image");
   app.add_option("--report", outputs.report, "OUT.json: settings, effects, times, counts, measured error");
 }
 
@@ -145,7 +167,7 @@ Result<nlohmann::json> deliver(FarmClient& client, const JobStatus& job, const O
   progress.report("write");
   RADFARM_TRY_STATUS(write_file_atomically(outputs.exr, exr));
   if (!outputs.png.empty()) RADFARM_TRY_STATUS(write_png(exr, outputs));
-  if (!outputs.aov_png.empty()) RADFARM_TRY_STATUS(write_aov_pictures(exr, outputs.aov_png));
+  if (!outputs.aov_png.empty()) RADFARM_TRY_STATUS(write_aov_pictures(exr, outputs));
   if (!outputs.report.empty()) {
     const std::string dumped = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     RADFARM_TRY_STATUS(write_file_atomically(outputs.report, dumped));

@@ -104,7 +104,8 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_flag("--mesh", flags.mesh, "draw the edges of the elements; with --integrator radiosity, and without an audit");
   app.add_option("--aov", flags.aov,
                  "LIST of layers besides light, or all: albedo, normal, depth, irradiance, samples.camera, samples.visibility, "
-                 "samples.formfactor, variance, classification, grid; docs/formats.md")
+                 "samples.formfactor, variance, classification, grid, masking; docs/formats.md. Beside these, light: a layer light.NAME of each "
+                 "light group, at the cost of about a render a group")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--effects", flags.effects, "+id,-id: force effects on or off; see `radfarm explain`");

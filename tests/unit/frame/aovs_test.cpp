@@ -52,6 +52,21 @@ TEST(RequestedAovs, OneSampleHasNoVariance) {
   EXPECT_THAT(requested_aovs(request).error().message, HasSubstr("--samples"));
 }
 
+TEST(RequestedAovs, LightGroupsAreNoAovAndNotAmongAll) {
+  for (const Integrator integrator : {Integrator::kAuto, Integrator::kPathTrace, Integrator::kRadiosity}) {
+    const RenderRequest request = request_of(integrator, {"light", "depth"});
+    EXPECT_EQ(requested_aovs(request).value(), set_of(Aov::kDepth));
+    EXPECT_TRUE(wants_light_groups(request));
+    EXPECT_FALSE(wants_light_groups(request_of(integrator, {"all"})));
+  }
+  RenderRequest request = request_of(Integrator::kAuto, {"light"});
+  request.gather = Gather::kPaper;
+  EXPECT_TRUE(requested_aovs(request)) << "the paper's gather gives no AOV, but light groups";
+  request = request_of(Integrator::kRadiosity, {"light"});
+  request.mesh = true;
+  EXPECT_THAT(validate(request).error().message, HasSubstr("--mesh"));
+}
+
 TEST(RequestedAovs, UnknownNamesAreAnsweredWithTheKnownOnes) {
   for (const char* name : {"normals", "", "ALL"}) {
     const Error error = validate(request_of(Integrator::kAuto, {"depth", name})).error();

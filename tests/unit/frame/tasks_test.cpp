@@ -14,6 +14,15 @@ Settings of_size(int width, int height, int tile, std::uint32_t audited = 0) {
   return settings;
 }
 
+TEST(CutTasks, CutsEachImageIntoTheSameTilesAndAuditsOnce) {
+  const Settings settings = of_size(100, 60, 16, 500);
+  const std::vector<Task> one = cut_tasks(settings), three = cut_tasks(settings, 3);
+  const std::size_t tiles = tile_count(settings);
+  EXPECT_EQ(three.size() - one.size(), 2 * tiles);
+  EXPECT_EQ(three[2 * tiles], (Task{Task::Kind::kTile, static_cast<std::uint32_t>(2 * tiles)}));
+  for (std::size_t i = tiles; i < one.size(); ++i) EXPECT_EQ(three[i + 2 * tiles], one[i]);
+}
+
 TEST(Tasks, TilesCoverEveryPixelOnce) {
   for (const Settings& settings : {of_size(1, 1, 32), of_size(33, 17, 8), of_size(64, 64, 64), of_size(7, 101, 10),
                                    of_size(40, 3, 1), of_size(31, 31, 32), of_size(97, 89, 13)}) {

@@ -3,9 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "scene/limits.h"
 
 namespace radfarm {
 namespace {
+
+std::vector<std::byte> encode_one(const View& view) { return encode(std::span(&view, 1)); }
+
+Result<View> decode_one(std::span<const std::byte> bytes) {
+  return decode_views(bytes).map([](std::vector<View> views) { return std::move(views.at(0)); });
+}
 
 View example() {
   View view;
@@ -23,10 +30,10 @@ View example() {
 }
 
 TEST(View, RoundTripKeepsEveryByte) {
-  const std::vector<std::byte> bytes = encode(example());
-  const Result<View> view = decode_view(bytes);
+  const std::vector<std::byte> bytes = encode_one(example());
+  const Result<View> view = decode_one(bytes);
   ASSERT_TRUE(view) << view.error().message;
-  EXPECT_EQ(encode(*view), bytes);
+  EXPECT_EQ(encode_one(*view), bytes);
   EXPECT_EQ(view->camera.position, Vec3(1, 2, 3));
   EXPECT_EQ(view->camera.lens_diameter, 0.02F);
   EXPECT_EQ(view->camera.focus_distance, 3);
@@ -39,11 +46,11 @@ TEST(View, RoundTripKeepsEveryByte) {
 }
 
 TEST(View, TruncatedOrDamagedBytesGiveDataLossOrASaneView) {
-  const std::vector<std::byte> bytes = encode(example());
+  const std::vector<std::byte> bytes = encode_one(example());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    const Result<View> view = decode_view(std::span(bytes).first(size));
+    const Result<View> view = decode_one(std::span(bytes).first(size));
     // What lies behind the last array is padding: a view without it is the same view.
-    EXPECT_TRUE(!view || encode(*view) == bytes) << size;
+    EXPECT_TRUE(!view || encode_one(*view) == bytes) << size;
     EXPECT_TRUE(view || view.error().code == Code::kDataLoss) << size;
     EXPECT_TRUE(!view || size + 64 > bytes.size()) << size;
   }
@@ -51,7 +58,7 @@ TEST(View, TruncatedOrDamagedBytesGiveDataLossOrASaneView) {
   for (int n = 0; n < 5000; ++n) {
     std::vector<std::byte> damaged = bytes;
     damaged[random.bits() % damaged.size()] ^= static_cast<std::byte>(1 + random.bits() % 255);
-    const Result<View> view = decode_view(damaged);
+    const Result<View> view = decode_one(damaged);
     if (!view) continue;
     const Settings& s = view->settings;
     EXPECT_TRUE(s.width >= 1 && s.width <= 16384 && s.height >= 1 && s.height <= 16384 && s.tile >= 1);
@@ -61,9 +68,9 @@ TEST(View, TruncatedOrDamagedBytesGiveDataLossOrASaneView) {
 TEST(View, RefusesAovsThatItDoesNotKnow) {
   View view = example();
   view.settings.aovs = (AovSet{1} << kAovCount) - 1;
-  EXPECT_EQ(decode_view(encode(view))->settings.aovs, view.settings.aovs);
+  EXPECT_EQ(decode_one(encode_one(view))->settings.aovs, view.settings.aovs);
   view.settings.aovs = AovSet{1} << kAovCount;
-  EXPECT_EQ(decode_view(encode(view)).error().code, Code::kDataLoss);
+  EXPECT_EQ(decode_one(encode_one(view)).error().code, Code::kDataLoss);
 }
 
 TEST(View, RefusesSizesOutOfRange) {
@@ -71,9 +78,29 @@ TEST(View, RefusesSizesOutOfRange) {
     View wide = example(), tiled = example();
     wide.settings.width = size;
     tiled.settings.tile = size;
-    EXPECT_EQ(decode_view(encode(wide)).error().code, Code::kDataLoss);
-    EXPECT_EQ(decode_view(encode(tiled)).error().code, Code::kDataLoss);
+    EXPECT_EQ(decode_one(encode_one(wide)).error().code, Code::kDataLoss);
+    EXPECT_EQ(decode_one(encode_one(tiled)).error().code, Code::kDataLoss);
   }
+}
+
+TEST(View, OfLightGroupsGoesTogether) {
+  std::vector<View> views(3, example());
+  views[0].light_group = "a", views[1].light_group = "b", views[2].light_group = "c";
+  views[1].settings.seed = 5, views[1].grid.clear();
+  const Result<std::vector<View>> again = decode_views(encode(views));
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(encode(*again), encode(views));
+  EXPECT_EQ(again->at(1).light_group, "b");
+  const auto refused = [](const std::vector<View>& some) { return decode_views(encode(some)).error().code == Code::kDataLoss; };
+  EXPECT_TRUE(refused({}));
+  EXPECT_TRUE(refused(std::vector<View>(limits::kLightGroups + 1, views[0])));
+  std::vector<View> unnamed = views, larger = views, other = views;
+  unnamed[2].light_group.clear();
+  ++larger[1].settings.width;
+  other[1].settings.integrator = Settings::Integrator::kPathTrace;
+  EXPECT_TRUE(refused(unnamed));
+  EXPECT_TRUE(refused(larger));
+  EXPECT_TRUE(refused(other));
 }
 
 }  // namespace

@@ -74,6 +74,7 @@ TEST(PhotonPath, AMirrorsLightIsSpecularAndAPanesIsItsSources) {
     PunctualLight sun;
     sun.kind = PunctualLight::Kind::kDirectional;
     sun.direction = {0, -1, 0};
+    sun.intensity = Spectrum(100.0F);
     maker.light(sun);
     return maker.take();
   }();

@@ -16,10 +16,11 @@ struct Solved {
   std::uint64_t seed = 1;
   bool is_reflecting = true;
   LightForm form = LightForm::kSenders;
+  Shining shining = {};
 };
 
 std::string key_of(const Solved& solved) {
-  return solution_key(solved.scene, solved.settings, solved.seed, solved.is_reflecting, solved.form);
+  return solution_key(solved.scene, solved.settings, solved.seed, solved.is_reflecting, solved.form, solved.shining);
 }
 
 std::string key_after(const std::function<void(Solved&)>& change) {
@@ -59,6 +60,12 @@ TEST(SolutionKey, DependsOnEverythingElse) {
       [](Solved& s) { ++s.settings.hits_per_patch; },
       [](Solved& s) { s.seed = 2; },
       [](Solved& s) { s.is_reflecting = false; },
+      [](Solved& s) { s.shining.environment = false; },
+      [](Solved& s) { s.shining.materials = {1, 0}; },
+      [](Solved& s) { s.shining.materials = {0, 1}; },
+      [](Solved& s) { s.shining.lights = {1, 0}; },
+      [](Solved& s) { s.shining = {{1}, {0}, true}; },
+      [](Solved& s) { s.shining = {{1, 0}, {}, true}, s.shining.environment = false; },
   };
   std::set<std::string> keys;
   for (const auto& change : changes) keys.insert(key_after(change));

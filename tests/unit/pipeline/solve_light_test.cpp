@@ -45,7 +45,7 @@ class ReuseTest : public testing::Test {
     EXPECT_TRUE(files) << files.error().message;
     return std::move(*files);
   }
-  static json facts(const PreparedFiles& files) { return json::parse(decode_view(files.view)->facts); }
+  static json facts(const PreparedFiles& files) { return json::parse(decode_views(files.view)->at(0).facts); }
   bool is_reused(const RenderRequest& request) const { return facts(prepared(request))["solution"]["reused"]; }
 
   TemporaryDirectory folder_ = *TemporaryDirectory::create("radfarm-reuse");
