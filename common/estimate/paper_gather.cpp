@@ -1,6 +1,7 @@
 #include "estimate/paper_gather.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "estimate/eye_chain.h"
@@ -86,14 +87,40 @@ void add_sender(const GatherPoint& point, std::span<const Asked> asked, Arrived&
   }
 }
 
-/// The lists of the four vertices around, blended: what one interpolates and another resamples counts in parts.
-Arrived gather_senders(const GatherPoint& point, const Interpolation& at) {
+/// The vertices whose lists a point blends, and their weights, which add up to 1.
+struct Vertices {
+  std::array<const VertexSenders*, 4> senders{};
+  std::array<float, 4> weights{};
+};
+
+/// (paper.8) The corners of the point's patch where that is gathered on, else those of its tetrahedron.
+Vertices vertices_around(const GatherPoint& point, std::uint32_t reflector) {
+  const SenderGrid& grid = point.context.senders;
+  Vertices around;
+  if (grid.patches()->has(reflector)) {
+    const auto weights = corner_weights(point.context.tree.reflectors[reflector].vertices, point.surface.position);
+    for (std::size_t i = 0; i < 3; ++i) {
+      around.weights[i] = weights[i];
+      if (weights[i] > 0) around.senders[i] = &grid.at_patch_vertex(grid.patches()->corners[reflector][i]);
+    }
+    return around;
+  }
+  const Interpolation at = interpolate(grid.grid(), point.surface.position);
+  around.weights = at.weights;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (at.weights[i] > 0) around.senders[i] = &grid.at(at.vertices[i]);
+  }
+  return around;
+}
+
+/// The lists of the vertices around, blended: what one interpolates and another resamples counts in parts.
+Arrived gather_senders(const GatherPoint& point, const Vertices& at) {
   Arrived arrived;
   thread_local std::vector<Asked> asked;  // scratch
   asked.clear();
   for (std::size_t v = 0; v < 4; ++v) {
     if (!(at.weights[v] > 0)) continue;
-    const VertexSenders& senders = point.context.senders.at(at.vertices[v]);
+    const VertexSenders& senders = *at.senders[v];
     for (const Lobe& lobe : senders.lobes) {
       const float received = received_from(point, lobe.direction) * at.weights[v];
       arrived.direct += lobe.direct * received;
@@ -109,15 +136,15 @@ Arrived gather_senders(const GatherPoint& point, const Interpolation& at) {
   return arrived;
 }
 
-Arrived gather_on_grid(const GatherPoint& point) {
+Arrived gather_at(const GatherPoint& point, std::uint32_t reflector) {
   const GatherContext& context = point.context;
-  const Interpolation at = interpolate(context.senders.grid(), point.surface.position);
+  const Vertices at = vertices_around(point, reflector);
   Arrived arrived;
   if (!context.tree.nodes.empty()) arrived = gather_senders(point, at);
   arrived.direct += punctual_light(point);
   if (context.world.environment.is_empty()) return arrived;
   const auto nearest = static_cast<std::size_t>(std::max_element(at.weights.begin(), at.weights.end()) - at.weights.begin());
-  arrived.direct += sky_light(point, context.senders.at(at.vertices[nearest]).sky, kSkyLines, kFirstSkyDimension);
+  arrived.direct += sky_light(point, at.senders[nearest]->sky, kSkyLines, kFirstSkyDimension);
   return arrived;
 }
 
@@ -126,7 +153,8 @@ class PaperLight : public GridGather {
   using GridGather::GridGather;
 
   Arrived seen(const SeenPoint& at, const PixelSampler& sampler, Counters& counters) const override {
-    return gather_on_grid({context_, at.point, at.bsdf, sampler, counters, leave(at.point), 0});
+    const GatherPoint point{context_, at.point, at.bsdf, sampler, counters, leave(at.point), 0};
+    return gather_at(point, context_.lookup.find(at.hit, at.point));
   }
 };
 

@@ -78,6 +78,21 @@ float PerspectiveGrid::cell_width(const Vec3& position) const {
   return 2 * half_extent(*this, z).x / static_cast<float>(columns);
 }
 
+float PerspectiveGrid::mean_edge(std::uint32_t cell) const {
+  const std::uint32_t i = cell % columns, j = cell / columns % rows, k = cell / columns / rows;
+  std::array<Vec3, 8> corners;
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    corners[c] = vertex_position(vertex_id(i + (c & 1U), j + ((c >> 1U) & 1U), k + (c >> 2U)));
+  }
+  float sum = 0;
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    for (std::uint32_t axis = 1; axis < 8; axis <<= 1) {
+      if ((c & axis) == 0) sum += length(corners[c | axis] - corners[c]);
+    }
+  }
+  return sum / 12;
+}
+
 Interpolation interpolate(const PerspectiveGrid& grid, const Vec3& position) {
   const Vec3 at = grid.locate(position);
   const std::array<std::uint32_t, 3> cells = {grid.columns, grid.rows, grid.slices};

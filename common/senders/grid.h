@@ -38,6 +38,8 @@ struct PerspectiveGrid {
   std::uint32_t cell_at(const Vec3& position) const;
   /// How wide a cell is at the depth of a point, m: what lies closer to the point than that, a vertex cannot know of.
   float cell_width(const Vec3& position) const;
+  /// The mean length of a cell's twelve edges, m.
+  float mean_edge(std::uint32_t cell) const;
   /// How much of a surface that faces the camera a pixel shows at the depth of a point, m.
   float pixel_width(const Vec3& position) const;
 };

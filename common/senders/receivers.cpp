@@ -14,9 +14,8 @@ namespace {
 constexpr std::uint64_t kPrepassKey = 0x70726570;  // "prep"
 constexpr float kMargin = 1.02F;                   // the grid reaches a little beyond the depths seen
 
-VisiblePoints::Light light_at(const World& world, const ReflectorLookup& lookup, const Hit& hit, const SurfacePoint& point) {
+VisiblePoints::Light light_at(const World& world, const ReflectorLookup& lookup, std::uint32_t id, const SurfacePoint& point) {
   VisiblePoints::Light light{luminance(world.emission(point)), -1};
-  const std::uint32_t id = lookup.find(hit, point);
   if (id == kNone) return light;
   const Reflector& reflector = lookup.tree().reflectors[id];
   const Spectrum& believed = reflector.is_doubtful != 0 ? reflector.of_direct : reflector.radiance;
@@ -37,7 +36,8 @@ VisiblePoints visible_in_row(const World& world, const ReflectorLookup& lookup, 
       SurfacePoint point = world.surfaces.at(*hit);
       face(point, -ray.direction);
       row.points.push_back({leave(point), point.shading_normal, luminance(world.surfaces.reflectance(point))});
-      row.lights.push_back(light_at(world, lookup, *hit, point));
+      row.reflectors.push_back(lookup.find(*hit, point));
+      row.lights.push_back(light_at(world, lookup, row.reflectors.back(), point));
       row.pixels.push_back(static_cast<std::uint32_t>(y * film.width + x));
     }
   }
@@ -56,6 +56,7 @@ VisiblePoints find_visible_points(const World& world, const ReflectorLookup& loo
     all.points.insert(all.points.end(), row.points.begin(), row.points.end());
     all.lights.insert(all.lights.end(), row.lights.begin(), row.lights.end());
     all.pixels.insert(all.pixels.end(), row.pixels.begin(), row.pixels.end());
+    all.reflectors.insert(all.reflectors.end(), row.reflectors.begin(), row.reflectors.end());
   }
   return all;
 }

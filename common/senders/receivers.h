@@ -43,6 +43,7 @@ struct VisiblePoints {
   std::vector<ReceiverPoint> points;
   std::vector<Light> lights;          // of each point
   std::vector<std::uint32_t> pixels;  // of each point: y * width + x
+  std::vector<std::uint32_t> reflectors;  // of each point: the patch it is of; kNone where nothing is reflected
 };
 VisiblePoints find_visible_points(const World& world, const ReflectorLookup& lookup, const Prepass& film,
                                   const Progress& progress = {});

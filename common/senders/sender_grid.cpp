@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/flat_file.h"
 #include "senders/paper_vertex.h"
@@ -14,11 +15,12 @@ constexpr std::uint32_t kPrepassSamples = 2;
 constexpr std::uint32_t kReceiversPerCell = 16;
 constexpr std::uint32_t kMaxCellsPerAxis = 1024;
 
-/// Every vertex with weight at a visible point.
-std::vector<std::uint32_t> touched_vertices(const PerspectiveGrid& grid, const std::vector<ReceiverPoint>& points) {
+/// Every vertex with weight at a visible point that is gathered on the grid.
+std::vector<std::uint32_t> touched_vertices(const PerspectiveGrid& grid, const VisiblePoints& seen, const PaperContext* paper) {
   std::vector<bool> touched(grid.vertex_count());
-  for (const ReceiverPoint& point : points) {
-    const Interpolation at = interpolate(grid, point.position);
+  for (std::size_t p = 0; p < seen.points.size(); ++p) {
+    if (paper != nullptr && paper->patches.has(seen.reflectors[p])) continue;
+    const Interpolation at = interpolate(grid, seen.points[p].position);
     for (std::size_t i = 0; i < 4; ++i) {
       if (at.weights[i] > 0) touched[at.vertices[i]] = true;
     }
@@ -58,12 +60,23 @@ Result<std::vector<std::vector<T>>> cut(std::span<const T> all, std::span<const 
   return pieces;
 }
 
-std::unique_ptr<const PaperContext> paper_context(const World& world, const SenderTree& tree, const SenderSettings& settings) {
-  return settings.gather == Gather::kPaper ? std::make_unique<const PaperContext>(world, tree) : nullptr;
+std::unique_ptr<const PaperContext> paper_context(const World& world, const SenderTree& tree, const PerspectiveGrid& grid,
+                                                  const SenderSettings& settings) {
+  return settings.gather == Gather::kPaper ? std::make_unique<const PaperContext>(world, tree, grid) : nullptr;
 }
 
 VertexSenders classify(const VertexContext& context, std::uint32_t vertex) {
   return context.paper != nullptr ? paper_vertex(context, vertex) : vertex_senders(context, vertex);
+}
+
+/// What the slot holds, computed if it is empty; and whether that happened here. Of two threads that fill it, one's result stays.
+template <typename Compute>
+std::pair<const VertexSenders*, bool> filled(std::atomic<const VertexSenders*>& slot, const Compute& compute) {
+  const VertexSenders* known = slot.load(std::memory_order_acquire);
+  if (known != nullptr) return {known, false};
+  auto mine = std::make_unique<const VertexSenders>(compute());
+  if (!slot.compare_exchange_strong(known, mine.get(), std::memory_order_acq_rel)) return {known, false};
+  return {mine.release(), true};
 }
 
 }  // namespace
@@ -83,9 +96,9 @@ ClassifiedView classify_visible(const World& world, const SenderTree& tree, cons
   view.perception = settings.threshold_scale > 0 ? visible_thresholds(world, film, file.grid, seen, settings)
                                                  : even_thresholds(file.grid, settings.threshold);
   file.thresholds = view.perception.values;
-  file.vertices = touched_vertices(file.grid, seen.points);
+  const std::unique_ptr<const PaperContext> paper = paper_context(world, tree, file.grid, settings);
+  file.vertices = touched_vertices(file.grid, seen, paper.get());
   file.senders.resize(file.vertices.size());
-  const std::unique_ptr<const PaperContext> paper = paper_context(world, tree, settings);
   const VertexContext context{world, tree, file.grid, file.receivers, file.thresholds, settings, seed, paper.get()};
   parallel_for(progress, "senders", file.vertices.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) file.senders[i] = classify(context, file.vertices[i]);
@@ -170,9 +183,10 @@ SenderGrid::SenderGrid(SenderGridFile file, const World& world, const SenderTree
     : grid_(std::move(file.grid)),
       receivers_(std::move(file.receivers)),
       thresholds_(std::move(file.thresholds)),
-      paper_(paper_context(world, tree, settings)),
+      paper_(paper_context(world, tree, grid_, settings)),
       context_{world, tree, grid_, receivers_, thresholds_, settings, seed, paper_.get()},
-      slots_(grid_.vertex_count()) {
+      slots_(grid_.vertex_count()),
+      patch_slots_(paper_ != nullptr ? paper_->patches.vertex_count() : 0) {
   for (std::size_t i = 0; i < file.vertices.size(); ++i) {
     slots_[file.vertices[i]] = new VertexSenders(std::move(file.senders[i]));
   }
@@ -180,15 +194,19 @@ SenderGrid::SenderGrid(SenderGridFile file, const World& world, const SenderTree
 
 SenderGrid::~SenderGrid() {
   for (const auto& slot : slots_) delete slot.load();
+  for (const auto& slot : patch_slots_) delete slot.load();
 }
 
 const VertexSenders& SenderGrid::at(std::uint32_t vertex) const {
-  const VertexSenders* known = slots_[vertex].load(std::memory_order_acquire);
-  if (known != nullptr) return *known;
-  auto mine = std::make_unique<const VertexSenders>(classify(context_, vertex));
-  if (!slots_[vertex].compare_exchange_strong(known, mine.get(), std::memory_order_acq_rel)) return *known;
-  computed_.fetch_add(1, std::memory_order_relaxed);
-  return *mine.release();
+  const auto [senders, is_new] = filled(slots_[vertex], [&] { return classify(context_, vertex); });
+  if (is_new) computed_.fetch_add(1, std::memory_order_relaxed);
+  return *senders;
+}
+
+const PatchMesh* SenderGrid::patches() const { return paper_ != nullptr ? &paper_->patches : nullptr; }
+
+const VertexSenders& SenderGrid::at_patch_vertex(std::uint32_t vertex) const {
+  return *filled(patch_slots_[vertex], [&] { return paper_patch_vertex(context_, vertex); }).first;
 }
 
 }  // namespace radfarm

@@ -8,6 +8,7 @@
 
 #include "base/progress.h"
 #include "base/status.h"
+#include "senders/patch_mesh.h"
 #include "senders/vertex_senders.h"
 #include "senders/vertex_thresholds.h"
 
@@ -50,9 +51,13 @@ class SenderGrid {
 
   const PerspectiveGrid& grid() const { return grid_; }
   const VertexSenders& at(std::uint32_t vertex) const;
+  /// The patches that the paper's gather interpolates on; nullptr for the default. (paper.8)
+  const PatchMesh* patches() const;
+  /// The senders of a vertex of patches(), computed when first asked for.
+  const VertexSenders& at_patch_vertex(std::uint32_t vertex) const;
   /// The largest change of radiance that its classification accepts, cd/m^2.
   float threshold_at(std::uint32_t vertex) const { return thresholds_[vertex]; }
-  /// Vertices that were not in the file and have been computed here so far.
+  /// Vertices of the grid that were not in the file and have been computed here so far.
   std::uint64_t computed() const { return computed_.load(std::memory_order_relaxed); }
 
  private:
@@ -63,6 +68,7 @@ class SenderGrid {
   VertexContext context_;
   // One slot a vertex, filled at most once. Two threads that fill the same slot compute the same bits; one result stays.
   mutable std::vector<std::atomic<const VertexSenders*>> slots_;
+  mutable std::vector<std::atomic<const VertexSenders*>> patch_slots_;  // one a vertex of patches()
   mutable std::atomic<std::uint64_t> computed_ = 0;
 };
 

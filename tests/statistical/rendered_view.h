@@ -98,6 +98,7 @@ class GatheredView {
         context_{world, tree_, lookup_, senders_, settings_} {}
 
   const PerspectiveGrid& grid() const { return senders_.grid(); }
+  const GatherContext& context() const { return context_; }
   SampleRadiance integrator() const {
     return [this](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface*) {
       return settings_.gather == Gather::kPaper ? paper_gather_radiance(context_, ray, sampler, counters)

@@ -40,17 +40,32 @@ TEST(ClosedComponents, AreThoseWithTwoTrianglesAtEveryEdge) {
   }
 }
 
-TEST(PaperVertex, IsAFunctionOfItsArgumentsAndAsksForOneSampleAtLeast) {
-  SolvedScene scene("cornell");
-  scene.settings.gather = Gather::kPaper;
-  const SenderGridFile file = scene.classify();
-  const PaperContext paper(scene.world, scene.tree);
-  const VertexContext context{scene.world, scene.tree, file.grid, file.receivers, file.thresholds, scene.settings, 1, &paper};
-  SenderGridFile again{file.grid, file.receivers, file.vertices, {}, file.thresholds};
-  for (const std::uint32_t vertex : file.vertices) again.senders.push_back(paper_vertex(context, vertex));
-  EXPECT_EQ(encode(again), encode(file));
+/// The paper's classification of what the default gather would look at on the grid, and of all that is gathered on patches.
+struct PaperView {
+  explicit PaperView(const SolvedScene& scene)
+      : file(scene.classify()),
+        paper(scene.world, scene.tree, file.grid),
+        context{scene.world, scene.tree, file.grid, file.receivers, file.thresholds, scene.settings, 1, &paper} {}
+
+  std::vector<VertexSenders> on_grid() const {
+    std::vector<VertexSenders> all;
+    for (const std::uint32_t vertex : file.vertices) all.push_back(paper_vertex(context, vertex));
+    return all;
+  }
+  std::vector<VertexSenders> on_patches() const {
+    std::vector<VertexSenders> all;
+    for (std::uint32_t v = 0; v < paper.patches.vertex_count(); ++v) all.push_back(paper_patch_vertex(context, v));
+    return all;
+  }
+
+  const SenderGridFile file;
+  const PaperContext paper;
+  const VertexContext context;
+};
+
+void expect_sane(const std::vector<VertexSenders>& all) {
   std::size_t critical = 0, interpolated = 0;
-  for (const VertexSenders& senders : file.senders) {
+  for (const VertexSenders& senders : all) {
     std::set<std::uint32_t> nodes;
     for (const CriticalSender& sender : senders.critical) {
       nodes.insert(sender.node);
@@ -66,19 +81,41 @@ TEST(PaperVertex, IsAFunctionOfItsArgumentsAndAsksForOneSampleAtLeast) {
   EXPECT_GT(interpolated, 0U);
 }
 
+TEST(PaperVertex, AsksForOneSampleAtLeastOfEachSenderOnce) {
+  const SolvedScene scene("cornell");
+  const PaperView view(scene);
+  expect_sane(view.on_grid());
+  expect_sane(view.on_patches());
+}
+
+TEST(PaperVertex, LeavesOutOfTheFileWhatPatchesInterpolate) {
+  SolvedScene scene("cornell");
+  const std::size_t by_default = scene.classify().vertices.size();
+  scene.settings.gather = Gather::kPaper;
+  const SenderGridFile file = scene.classify();
+  EXPECT_LT(file.vertices.size(), by_default);
+  const PaperContext paper(scene.world, scene.tree, file.grid);
+  const VertexContext context{scene.world, scene.tree, file.grid, file.receivers, file.thresholds, scene.settings, 1, &paper};
+  SenderGridFile again{file.grid, file.receivers, file.vertices, {}, file.thresholds};
+  for (const std::uint32_t vertex : file.vertices) again.senders.push_back(paper_vertex(context, vertex));
+  EXPECT_EQ(encode(again), encode(file));
+}
+
 TEST(PaperVertex, AsksForLessWhereTheThresholdIsHigher) {
   SolvedScene scene("cornell");
-  scene.settings.gather = Gather::kPaper;
-  const auto asked = [&](float factor) {
-    scene.settings.threshold *= factor;
+  const auto asked = [](const std::vector<VertexSenders>& all) {
     double samples = 0;
-    for (const VertexSenders& senders : scene.classify().senders) {
+    for (const VertexSenders& senders : all) {
       for (const CriticalSender& sender : senders.critical) samples += static_cast<double>(sender.samples);
     }
     return samples;
   };
-  const double fine = asked(1), coarse = asked(8);
-  EXPECT_LT(coarse, fine);
+  const PaperView fine(scene);
+  const double on_grid = asked(fine.on_grid()), on_patches = asked(fine.on_patches());
+  scene.settings.threshold *= 8;
+  const PaperView coarse(scene);
+  EXPECT_LT(asked(coarse.on_grid()), on_grid);
+  EXPECT_LT(asked(coarse.on_patches()), on_patches);
 }
 
 TEST(FixedSample, IsTheSameForAnyCaller) {
