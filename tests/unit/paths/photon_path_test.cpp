@@ -71,11 +71,13 @@ TEST(PhotonPath, AMirrorsLightIsSpecularAndAPanesIsItsSources) {
     maker.polygon(mirror, {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}});
     maker.polygon(pane, {{-2, .5F, -2}, {-2, .5F, 2}, {2, .5F, 2}, {2, .5F, -2}});
     maker.polygon(grey, {{-9, 9, -9}, {9, 9, -9}, {9, 9, 9}, {-9, 9, 9}});
-    PunctualLight sun;
-    sun.kind = PunctualLight::Kind::kDirectional;
-    sun.direction = {0, -1, 0};
-    sun.intensity = Spectrum(100.0F);
-    maker.light(sun);
+    PunctualLight spot;
+    spot.kind = PunctualLight::Kind::kSpot;
+    spot.position = {0, 3, 0};
+    spot.direction = {0, -1, 0};
+    spot.cos_inner = .99F, spot.cos_outer = .98F;
+    spot.intensity = Spectrum(100.0F);
+    maker.light(spot);
     return maker.take();
   }();
   scene.materials[0].metallic = 1, scene.materials[0].roughness = 0;
@@ -85,7 +87,7 @@ TEST(PhotonPath, AMirrorsLightIsSpecularAndAPanesIsItsSources) {
   for (std::uint64_t i = 0; i < 400; ++i) {
     for (const Segment& s : segments_of(world, i)) {
       if (s.begin > 0 && s.ray.direction.y < 0 && s.bounce == 1) {
-        EXPECT_EQ(s.origin, Origin::kEmitter);  // the sun's light, by the window
+        EXPECT_EQ(s.origin, Origin::kEmitter);  // the lamp's light, by the window
         ++through;
       }
       if (s.ray.direction.y > 0 && s.bounce == 2) {
