@@ -89,6 +89,7 @@ class EyeChain {
     if (!at.bsdf.has_diffuse()) return {};
     const Arrived irradiance = context_.light.seen(at, sampler_, counters_);
     const Spectrum reflected = throughput * at.bsdf.diffuse_reflectance() * kInversePi;
+    if (context_.receivers != nullptr) (*context_.receivers)(at.hit, at.point, reflected);
     parts_.direct += reflected * irradiance.direct;
     if (!context_.has_interreflection) return irradiance.direct;
     parts_.indirect += reflected * irradiance.indirect;
@@ -124,6 +125,9 @@ class EyeChain {
         next_event_light(vertex, sampler_.one(dimension), sampler_.two(dimension + 1), counters_);
     parts_.specular += throughput * event.specular;
     if (!vertex.bsdf.has_diffuse()) return;
+    if (context_.receivers != nullptr) {
+      (*context_.receivers)(hit, vertex.point, throughput * vertex.bsdf.diffuse_reflectance() * kInversePi);
+    }
     const Arrived radiance = context_.light.beyond(hit, vertex, event.diffuse, sampler_, dimension, counters_);
     parts_.direct += throughput * radiance.direct;
     parts_.indirect += throughput * radiance.indirect;

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <functional>
+
 #include "estimate/diffuse_light.h"
 #include "estimate/first_surface.h"
 #include "estimate/radiance_parts.h"
 
 namespace radfarm {
+
+/// Told of each diffuse surface that a camera ray sees, and how much of its irradiance, lux, reaches the camera as radiance.
+using SeeReceiver = std::function<void(const Hit&, const SurfacePoint&, const Spectrum& weight)>;
 
 /// What the chains of a view borrow.
 struct EyeChainContext {
@@ -12,6 +17,7 @@ struct EyeChainContext {
   const DiffuseLight& light;
   bool has_interreflection = true;  // off: `indirect` is not returned
   FirstSurface* first = nullptr;    // filled where given, but for what is of the grid
+  const SeeReceiver* receivers = nullptr;
 };
 
 /// sampler.key() of what decides, at holes, which surface the camera sees first.

@@ -11,7 +11,7 @@ namespace radfarm {
 /// Streams of random numbers that must never share a number.
 enum class Stream : std::uint64_t {
   kRender = 1, kAuditFirst = 2, kAuditSecond = 3, kRadiosity = 4, kSenders = 5, kProbe = 6, kCorner = 7,
-  kRenderOdd = 8, kEmission = 9, kMeter = 10
+  kRenderOdd = 8, kEmission = 9, kMeter = 10, kPhotonView = 11
 };
 
 /// The random numbers of one sample of one pixel: Owen-scrambled Sobol points, one 2-D sequence a dimension, keyed by

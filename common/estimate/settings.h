@@ -11,12 +11,13 @@ namespace radfarm {
 /// Everything that decides an image's bits besides scene and camera: what --quality and the flags resolve to. Recorded in
 /// the report and in the image's header, so that a render can be replayed exactly. Stored as it is; no padding.
 struct Settings {
-  enum class Integrator : std::uint32_t { kGather = 0, kPathTrace = 1, kRadiosity = 2 };
+  enum class Integrator : std::uint32_t { kGather = 0, kPathTrace = 1, kRadiosity = 2, kPaths = 3 };
   Integrator integrator = Integrator::kGather;
   std::int32_t width = 0;
   std::int32_t height = 0;
   std::int32_t tile = 32;                // pixels a side; decides the cutting, never the image
   std::uint64_t seed = 1;
+  std::uint64_t photons = 0;             // light paths, in `photon_batches`; 0: none
   AovSet aovs = 0;                       // written besides the light; never change it
   std::uint32_t camera_samples = 16;     // a pixel, at first
   std::uint32_t max_camera_samples = 16; // a pixel; at least camera_samples
@@ -27,9 +28,13 @@ struct Settings {
   std::uint32_t exactly_off = 0;         // ... of which these change no image: the audit leaves them out too
   std::uint16_t draws_mesh = 0;          // 1: lines over the edges of the elements (radiosity)
   std::uint16_t shares_light = 0;        // 1: like pixels share direct and indirect light (sharing/share_light.h)
+  std::uint32_t photon_batches = 0;
+  std::uint32_t photon_origins = 0;      // OriginSet: the light that they bring
+  float photon_radius = 0;               // m, of all discs; 0: each as wide as brings it `photon_crossings`
+  float photon_crossings = 0;
   RadiositySettings radiosity;
   SenderSettings senders;
 };
-static_assert(sizeof(Settings) == 60 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
+static_assert(sizeof(Settings) == 84 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
 
 }  // namespace radfarm

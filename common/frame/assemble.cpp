@@ -1,9 +1,12 @@
 #include "frame/assemble.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "frame/aov_layers.h"
 #include "frame/tasks.h"
+#include "math/statistics.h"
 
 namespace radfarm {
 namespace {
@@ -22,6 +25,47 @@ constexpr Layer kLayers[] = {
 };
 
 }  // namespace
+
+namespace {
+
+/// Turns the mean that photon paths brought a pixel into sums over its samples, as if each had brought it.
+void add_to(PixelSums& pixel, const std::array<SpectrumD, 3>& brought, double variance) {
+  const double n = pixel.samples;
+  pixel.direct += brought[0] * n;
+  pixel.indirect += brought[1] * n;
+  pixel.specular += brought[2] * n;
+  const double mean = n > 0 ? luminance(pixel.reflected()) / n : 0;
+  // Of n samples whose mean has this variance, if there is more than one.
+  pixel.squared_luminance = n * (mean * mean + std::max(0.0, n - 1) * variance);
+}
+
+}  // namespace
+
+Status add_photons(std::span<const PhotonResult> results, Raster& raster) {
+  if (results.empty()) return {};
+  double paths = 0;
+  for (const PhotonResult& result : results) {
+    if (result.pixels.size() != raster.pixels.size() || result.paths == 0) {
+      return fail(Code::kDataLoss, "photon result: is not of the image");
+    }
+    paths += static_cast<double>(result.paths);
+    raster.counters.photon_paths += result.paths;
+  }
+  for (std::size_t i = 0; i < raster.pixels.size(); ++i) {
+    std::array<SpectrumD, 3> brought{};
+    RunningStatistics batches;
+    for (const PhotonResult& result : results) {
+      const PhotonPixel& p = result.pixels[i];
+      brought[0] += SpectrumD(p.direct) / paths;
+      brought[1] += SpectrumD(p.indirect) / paths;
+      brought[2] += SpectrumD(p.specular) / paths;
+      batches.add(luminance(SpectrumD(p.direct) + SpectrumD(p.indirect) + SpectrumD(p.specular)) / static_cast<double>(result.paths));
+    }
+    const double error = batches.standard_error();
+    add_to(raster.pixels[i], brought, error * error);
+  }
+  return {};
+}
 
 Result<Raster> assemble(const Settings& settings, std::span<const TileResult> tiles) {
   Raster raster;

@@ -5,6 +5,7 @@
 
 #include "base/status.h"
 #include "estimate/settings.h"
+#include "estimate/photon_result.h"
 #include "estimate/task_result.h"
 #include "image/image.h"
 #include "image/visibility_threshold.h"
@@ -22,6 +23,9 @@ struct Raster {
 
 /// Puts tiles together. DATA_LOSS when a pixel is missing or given twice, or its AOVs or what it shares are missing.
 Result<Raster> assemble(const Settings& settings, std::span<const TileResult> tiles);
+
+/// Adds what photon tasks brought, in their order; the pixel's variance becomes that of the batches. DATA_LOSS when a result is not of the image.
+Status add_photons(std::span<const PhotonResult> results, Raster& raster);
 
 /// The layers of DESIGN section 9: beauty at the root, emission, direct, indirect, specular (zero until photon paths), and the
 /// AOVs that the settings name.

@@ -57,6 +57,7 @@ const char* name_of(Settings::Integrator integrator) {
     case Settings::Integrator::kGather: return "gather";
     case Settings::Integrator::kPathTrace: return "path-trace";
     case Settings::Integrator::kRadiosity: return "radiosity";
+    case Settings::Integrator::kPaths: return "paths";
   }
   return "";
 }
@@ -77,6 +78,10 @@ json to_json(const Settings& s) {
               {"audit_samples", s.audit_samples},
               {"effects_off", s.effects_off}};
   if (s.aovs != 0) out["aov"] = aov_names(s.aovs);
+  if (s.integrator == Settings::Integrator::kPaths) {
+    out["photons"] = {{"paths", s.photons}, {"batches", s.photon_batches}, {"radius", s.photon_radius}, {"crossings", s.photon_crossings}};
+    return out;
+  }
   if (s.integrator == Settings::Integrator::kPathTrace) return out;
   out["radiosity"] = {{"oracle", to_string(s.radiosity.oracle.criterion)},
                       {"max_link_error", s.radiosity.max_link_error},

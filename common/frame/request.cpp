@@ -23,6 +23,7 @@ using PlacedCamera = RenderRequest::PlacedCamera;
 constexpr int kMaxSide = 16384;
 constexpr int kMaxTile = 1024;
 constexpr int kMaxSamples = 1 << 20;
+constexpr std::uint64_t kMaxPhotons = std::uint64_t{1} << 40;
 constexpr std::size_t kMaxIes = 1000;
 constexpr std::size_t kMaxText = 1024;  // bytes of a camera's name or an effects list
 
@@ -37,6 +38,7 @@ constexpr std::array kIntegrators = {
     Name<Integrator>{Integrator::kGather, "gather"},
     Name<Integrator>{Integrator::kFullGather, "full-gather"},
     Name<Integrator>{Integrator::kPathTrace, "path-trace"},
+    Name<Integrator>{Integrator::kPaths, "paths"},
 };
 constexpr std::array kQualities = {
     Name<Quality>{Quality::kPreview, "preview"},
@@ -283,6 +285,8 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
   if (key == "seed") return read(value, key, request.seed);
   if (key == "tile") return read(value, key, request.tile);
   if (key == "samples") return read(value, key, request.samples);
+  if (key == "photons") return read(value, key, request.photons);
+  if (key == "radius") return read(value, key, request.radius);
   if (key == "link_error") return read(value, key, request.link_error);
   if (key == "threshold") return read(value, key, request.threshold);
   if (key == "oracle") return read(value, key, request.oracle);
@@ -299,6 +303,19 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
 }
 
 }  // namespace
+
+Status check_photons(const RenderRequest& request) {
+  if ((request.photons || request.radius) && request.integrator != Integrator::kPaths) {
+    return invalid("--photons and --radius are of photon paths: they need --integrator paths");
+  }
+  if (request.photons && !(*request.photons >= 1 && *request.photons <= kMaxPhotons)) {
+    return invalid("--photons is " + std::to_string(*request.photons) + ", must be between 1 and " + std::to_string(kMaxPhotons));
+  }
+  if (request.radius && !(*request.radius > 0 && *request.radius <= 1e6F)) {
+    return invalid("--radius is " + std::to_string(*request.radius) + " m, must be positive");
+  }
+  return {};
+}
 
 Status validate(const RenderRequest& request) {
   RADFARM_TRY_STATUS(std::visit([](const auto& camera) { return check_camera(camera); }, request.camera));
@@ -318,7 +335,9 @@ Status validate(const RenderRequest& request) {
   if (request.focus_distance && !(*request.focus_distance > 0 && *request.focus_distance <= 1e18F)) {
     return invalid("--focus-distance is " + std::to_string(*request.focus_distance) + " m, must be positive and finite");
   }
-  const bool is_gather = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity;
+  RADFARM_TRY_STATUS(check_photons(request));
+  const bool is_gather = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity &&
+                         request.integrator != Integrator::kPaths;
   if (request.gather == Gather::kPaper && !is_gather) {
     return invalid("--gather paper is a way to gather: it needs --integrator auto, gather or full-gather");
   }
@@ -352,6 +371,8 @@ nlohmann::json to_json(const RenderRequest& request) {
   if (request.width) json["width"] = *request.width;
   if (request.height) json["height"] = *request.height;
   if (request.samples) json["samples"] = *request.samples;
+  if (request.photons) json["photons"] = *request.photons;
+  if (request.radius) json["radius"] = *request.radius;
   if (request.link_error) json["link_error"] = *request.link_error;
   if (request.threshold) json["threshold"] = *request.threshold;
   return json;

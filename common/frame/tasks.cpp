@@ -21,12 +21,20 @@ std::vector<Task> cut_tasks(const Settings& settings, std::size_t images) {
   for (std::size_t i = 0; i < images * tile_count(settings); ++i) {
     tasks.push_back({Task::Kind::kTile, static_cast<std::uint32_t>(i)});
   }
+  for (std::size_t i = 0; i < images * settings.photon_batches; ++i) {
+    tasks.push_back({Task::Kind::kPhotons, static_cast<std::uint32_t>(i)});
+  }
   const std::size_t audited =
       choose_audit_pixels(settings.width, settings.height, settings.audit_pixels, settings.seed).size();
   for (std::size_t first = 0; first < audited; first += kAuditPixelsPerTask) {
     tasks.push_back({Task::Kind::kAudit, static_cast<std::uint32_t>(first / kAuditPixelsPerTask)});
   }
   return tasks;
+}
+
+std::uint64_t paths_of_batch(const Settings& settings, std::uint32_t batch) {
+  const std::uint64_t each = settings.photons / settings.photon_batches, left = settings.photons % settings.photon_batches;
+  return each + (batch < left ? 1 : 0);
 }
 
 PixelRect tile_rect(const Settings& settings, std::uint32_t index) {

@@ -11,11 +11,14 @@
 
 namespace radfarm {
 
-/// Tiles row by row, of one image after the other, then audit tasks. Requires: settings as decode_views() checks them.
+/// Tiles row by row, of one image after the other, then photon batches in the same order, then audit tasks. Requires: settings as decode_views() checks them.
 std::vector<Task> cut_tasks(const Settings& settings, std::size_t images = 1);
 
 /// Of one image.
 std::size_t tile_count(const Settings& settings);
+
+/// Light paths of photon task `batch` of an image. Requires: there are batches.
+std::uint64_t paths_of_batch(const Settings& settings, std::uint32_t batch);
 
 /// The pixels of tile `index` of an image, cut off at its edge.
 PixelRect tile_rect(const Settings& settings, std::uint32_t index);

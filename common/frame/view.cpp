@@ -9,7 +9,8 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kMaxPhotonBatches = 1 << 16;
 
 /// Camera without its name: a fixed layout.
 struct StoredCamera {
@@ -20,14 +21,16 @@ struct StoredCamera {
 
 bool is_sane(const Settings& s) {
   const auto side = [](std::int32_t n) { return n >= 1 && n <= 16384; };
-  return side(s.width) && side(s.height) && side(s.tile) && s.camera_samples >= 1 && s.aovs >> kAovCount == 0;
+  return side(s.width) && side(s.height) && side(s.tile) && s.camera_samples >= 1 && s.aovs >> kAovCount == 0 &&
+         s.photon_batches <= kMaxPhotonBatches && (s.photon_batches == 0 || s.photons >= s.photon_batches);
 }
 
 /// Light groups are added up pixel by pixel, and each is cut into the same tasks.
 bool go_together(const View& a, const View& b) {
   const Settings &s = a.settings, &t = b.settings;
   return s.integrator == t.integrator && s.width == t.width && s.height == t.height && s.tile == t.tile && s.aovs == t.aovs &&
-         s.shares_light == t.shares_light && s.effects_off == t.effects_off;
+         s.shares_light == t.shares_light && s.effects_off == t.effects_off && s.photons == t.photons &&
+         s.photon_batches == t.photon_batches;
 }
 
 Result<LuminanceImage> get_elevation(const FlatFileReader& file, const std::string& prefix) {

@@ -11,17 +11,30 @@ namespace {
 
 constexpr std::uint64_t kPathKey = 0x70686f746f6e;  // "photon"
 
-/// Adds what segments bring; of each disc, what one path brought is squared as a whole.
+struct Query {
+  Crossing& crossing;
+  const Segment& segment;
+  const SeeCrossings& see;
+};
+
+void cross(void* user, std::uint32_t disc) {
+  const Query& query = *static_cast<Query*>(user);
+  const CountedArea area = query.crossing.at(disc);
+  if (area.whole > 0) query.see.crossing(query.segment, disc, area);
+}
+
+/// Sums of discs; of each, what one path brought is squared as a whole.
 class Adder {
  public:
-  Adder(const World& world, const DiscSet& discs, OriginSet origins, std::span<DiscSums> sums, const CrossingRules& rules)
-      : world_(world), discs_(discs), origins_(origins), sums_(sums), rules_(rules) {}
+  explicit Adder(std::span<DiscSums> sums) : sums_(sums) {}
 
-  void see(const Segment& segment) {
-    if (!contains(origins_, segment.origin)) return;
-    Crossing crossing(world_, discs_, segment, rules_);
-    Query query{*this, segment, crossing};
-    discs_.caster().crossed(segment.ray, segment.begin, crossing.far(), &Adder::cross, &query);
+  void add(const Segment& segment, std::uint32_t disc, const CountedArea& area) {
+    const SpectrumD power(segment.power);
+    DiscSums& sums = sums_[disc];
+    sums.flux += power * (1 / area.whole);
+    if (area.inner > 0) sums.inner += luminance(power) / area.inner;
+    ++sums.crossings;
+    brought_.emplace_back(disc, luminance(power) / area.whole);
   }
 
   void end_path() {
@@ -36,47 +49,37 @@ class Adder {
   }
 
  private:
-  struct Query {
-    Adder& adder;
-    const Segment& segment;
-    Crossing& crossing;
-  };
-
-  static void cross(void* user, std::uint32_t disc) {
-    const Query& query = *static_cast<Query*>(user);
-    const CountedArea area = query.crossing.at(disc);
-    if (!(area.whole > 0)) return;
-    const SpectrumD power(query.segment.power);
-    DiscSums& sums = query.adder.sums_[disc];
-    sums.flux += power * (1 / area.whole);
-    if (area.inner > 0) sums.inner += luminance(power) / area.inner;
-    ++sums.crossings;
-    query.adder.brought_.emplace_back(disc, luminance(power) / area.whole);
-  }
-
-  const World& world_;
-  const DiscSet& discs_;
-  const OriginSet origins_;
   const std::span<DiscSums> sums_;
-  const CrossingRules& rules_;
   std::vector<std::pair<std::uint32_t, double>> brought_;  // by the path so far
 };
 
 }  // namespace
 
-PathLosses add_batch(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,
-                     std::span<DiscSums> sums, const CrossingRules& rules) {
-  Adder adder(world, discs, origins, sums, rules);
-  const SeeSegment see = [&](const Segment& segment) { adder.see(segment); };
+PathLosses each_crossing(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,
+                         const SeeCrossings& see, const CrossingRules& rules) {
+  const SeeSegment see_segment = [&](const Segment& segment) {
+    if (!contains(origins, segment.origin)) return;
+    Crossing crossing(world, discs, segment, rules);
+    Query query{crossing, segment, see};
+    discs.caster().crossed(segment.ray, segment.begin, crossing.far(), cross, &query);
+  };
   const std::uint64_t key = combine(batch.seed, kPathKey, batch.batch);
   PathLosses losses;
   for (std::uint64_t i = 0; i < batch.paths; ++i) {
-    const PathLosses one = follow_path(world, key, i, see);
-    adder.end_path();
+    const PathLosses one = follow_path(world, key, i, see_segment);
+    if (see.end_path) see.end_path();
     losses.absorbed += one.absorbed;
     losses.escaped += one.escaped;
   }
   return losses;
+}
+
+PathLosses add_batch(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,
+                     std::span<DiscSums> sums, const CrossingRules& rules) {
+  Adder adder(sums);
+  const SeeCrossings see{[&](const Segment& segment, std::uint32_t disc, const CountedArea& area) { adder.add(segment, disc, area); },
+                         [&] { adder.end_path(); }};
+  return each_crossing(world, discs, origins, batch, see, rules);
 }
 
 double variance_of(const DiscSums& sums, double paths) {

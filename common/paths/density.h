@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "math/spectrum.h"
@@ -32,8 +33,18 @@ struct PathBatch {
   std::uint64_t paths = 0;
 };
 
-/// Adds to each disc what the segments of a batch's paths, of the classes in `origins`, bring it.   docs/pipeline.md (paths.2)
-/// On the caller's thread. Requires: one sum a disc; emitters.size() > 0. Cost: about 3 us a segment, 10 ns a crossing more.
+/// Who is shown where the segments of a path cross discs, and where the path ends.
+struct SeeCrossings {
+  std::function<void(const Segment&, std::uint32_t disc, const CountedArea&)> crossing;
+  std::function<void()> end_path;  // may be empty
+};
+
+/// Shows where segments of a batch's paths, of the classes in `origins`, count at discs, path by path.   docs/pipeline.md (paths.2)
+/// On the caller's thread. Requires: emitters.size() > 0. Cost: about 3 us a segment, 50 ns a crossing more.
+PathLosses each_crossing(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,
+                         const SeeCrossings& see, const CrossingRules& rules = {});
+
+/// Adds to each disc each_crossing() shows. Requires: one sum a disc.
 PathLosses add_batch(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,
                      std::span<DiscSums> sums, const CrossingRules& rules = {});
 

@@ -54,6 +54,14 @@ ExpectedCost expect_cost(const World& world, const Camera& camera, const Setting
     cost.high = 1.5 * samples * pilot.sample_seconds + cost.audit;
     return cost;
   }
+  if (settings.integrator == Settings::Integrator::kPaths) {
+    // Some five rays a path, as many searches for discs, and what discs count.
+    const double pixels = static_cast<double>(settings.width) * settings.height;
+    const double light = static_cast<double>(settings.photons) * 10 * pilot.ray_seconds + pixels * settings.photon_crossings * 1e-7;
+    cost.low = 0.5 * light + samples * pilot.ray_seconds + cost.audit;
+    cost.high = 3 * light + 20 * samples * pilot.ray_seconds + cost.audit;
+    return cost;
+  }
   double triangles = 0;
   for (const Instance& instance : world.scene.instances) {
     triangles += static_cast<double>(world.scene.meshes[instance.mesh].triangles.size());

@@ -67,11 +67,14 @@ double mean_reflected(const Raster& raster) {
 /// other, as their sums need ten times the memory of their layers.
 Result<Raster> add_lights(std::span<const View> views, std::span<const std::vector<std::byte>> results, json& facts,
                           Image& layers) {
-  const std::size_t tiles = tile_count(views[0].settings);
+  const std::size_t tiles = tile_count(views[0].settings), batches = views[0].settings.photon_batches;
   Raster sum;
   std::vector<double> means;
   for (std::size_t i = 0; i < views.size(); ++i) {
     RADFARM_TRY(Raster raster, raster_of(views[i], results.subspan(i * tiles, tiles), facts["stages"]));
+    RADFARM_TRY(const std::vector<PhotonResult> photons,
+                decode_results(results.subspan(views.size() * tiles + i * batches, batches), decode_photon_result));
+    RADFARM_TRY_STATUS(add_photons(photons, raster));
     if (!views[i].light_group.empty()) add_light_layer(views[i].light_group, raster, layers);
     means.push_back(mean_reflected(raster));
     if (i == 0) {
@@ -110,13 +113,13 @@ Result<Finished> finish(std::span<const std::byte> view, std::span<const std::ve
                         const FarmFacts& farm) {
   RADFARM_TRY(const std::vector<View> views, decode_views(view));
   const Settings& settings = views[0].settings;
-  const std::size_t tiles = views.size() * tile_count(settings);
+  const std::size_t images = views.size() * (tile_count(settings) + settings.photon_batches);  // tasks of light
   if (results.size() != cut_tasks(settings, views.size()).size()) return fail(Code::kDataLoss, "results are missing");
-  RADFARM_TRY(const std::vector<AuditResult> audits, decode_results(results.subspan(tiles), decode_audit_result));
+  RADFARM_TRY(const std::vector<AuditResult> audits, decode_results(results.subspan(images), decode_audit_result));
   json facts = json::parse(views[0].facts, nullptr, /*allow_exceptions=*/false);
   if (!facts.is_object()) return fail(Code::kDataLoss, "view: its facts are not JSON");
   Image layers;
-  RADFARM_TRY(Raster sum, add_lights(views, results.first(tiles), facts, layers));
+  RADFARM_TRY(Raster sum, add_lights(views, results.first(images), facts, layers));
   RADFARM_TRY(const Raster raster, checked(std::move(sum)));
   std::optional<Accuracy> accuracy;
   Counters counters = raster.counters;

@@ -53,6 +53,11 @@ Status refuse_trapped(const World& world, const TrappedLight& trapped) {
                   " reflections); lower a reflectance there below 1 or open it");
 }
 
+/// Whether all light is carried by paths, and none by a radiosity solution.
+bool follows_paths(const Settings& settings) {
+  return settings.integrator == Settings::Integrator::kPathTrace || settings.integrator == Settings::Integrator::kPaths;
+}
+
 /// A scene without light, or with light that can never be lost, has no image.
 Status check_light(const World& world, const Measurements& m) {
   const bool is_declared = m.emissive_triangles > 0 || m.punctual_lights > 0 || m.has_environment;
@@ -143,7 +148,7 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   planned.measurements = measure(*planned.world, size, request.seed, progress);
   RADFARM_TRY_STATUS(progress.check());
   RADFARM_TRY_STATUS(check_light(*planned.world, planned.measurements));
-  const bool is_path = planned.settings.integrator == Settings::Integrator::kPathTrace;
+  const bool is_path = follows_paths(planned.settings);
   const Transport gather = request.gather == Gather::kPaper ? Transport::kPaperGather : Transport::kGather;
   RADFARM_TRY(planned.plan, plan_effects(planned.measurements, is_path ? Transport::kPathTrace : gather, request.effects));
   planned.settings.effects_off = planned.plan.off();
@@ -221,7 +226,7 @@ void add_facts(std::span<const PreparedLight> lights, std::span<const std::byte>
 
 /// Whether anything is to be known of light before a worker asks.
 bool needs_world(const Planned& planned, const RenderRequest& request) {
-  return planned.settings.integrator != Settings::Integrator::kPathTrace || wants_light_groups(request);
+  return !follows_paths(planned.settings) || wants_light_groups(request);
 }
 
 /// Solutions and views, of each light group or of all light, and what is said of them.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "effects/specialise.h"
+#include "estimate/seen_discs.h"
 #include "frame/view.h"
 #include "pipeline/pipeline.h"
 #include "radiosity/element_mesh.h"
@@ -31,6 +32,17 @@ struct LitView {
   std::optional<SenderGrid> senders;
   std::optional<ElementMesh> mesh;    // of the integrator radiosity
   std::optional<SideNumbers> sides;   // with it
+
+  /// What photon tasks count paths at: made when one first asks.
+  struct Photons {
+    Photons(const LitView& lit, const Film& film);
+    const Components components;
+    const SeenDiscs seen;
+    const DiscSet set;
+  };
+  const Photons& photons(const Film& film) const;
+  mutable std::once_flag has_photons;
+  mutable std::optional<Photons> seen_photons;
 
   bool has_interreflection() const { return !contains(view.settings.effects_off, Effect::kInterreflection); }
   bool is_paper() const { return senders && view.settings.senders.gather == Gather::kPaper; }

@@ -12,6 +12,8 @@ namespace {
 
 // The paper samples all critical senders of a point where ours draws from them: some 150 rays a pixel [1, fig. 6].
 constexpr float kPaperSamples = 12;
+constexpr std::uint64_t kPhotonBatches = 16;  // tasks: each returns sums of the whole image
+constexpr float kCrossings = 200;              // of a disc, of 4 million paths
 constexpr int kDefaultWidth = 640;
 constexpr double kDefaultAspect = 16.0 / 9.0;
 
@@ -34,13 +36,14 @@ struct QualityRow {
   float full_lines;  // samples_per_gather where all that reflects is a sender
   float threshold_scale;
   float noise_share;  // of the mean radiance seen
+  std::uint64_t photons;
 };
 
 constexpr QualityRow kQuality[] = {
-    {16, 4, 512, 32, 1e-4F, 1e-4F, 1, 2, 16, 200, 600, 2, 2, 0, 8, .5F, .04F},
-    {64, 16, 1024, 64, 2e-5F, 1e-4F, 2, 4, 24, 400, 1200, 2, 2, 1, 12, .25F, .015F},
-    {256, 32, 2048, 128, 1e-5F, 2e-5F, 4, 8, 32, 800, 2400, 2, 2, 1, 16, .125F, .004F},
-    {1024, 64, 4096, 256, 5e-6F, 5e-6F, 8, 16, 48, 1600, 4800, 2, 2, 1, 24, .05F, .0006F},
+    {16, 4, 512, 32, 1e-4F, 1e-4F, 1, 2, 16, 200, 600, 2, 2, 0, 8, .5F, .04F, 1'000'000},
+    {64, 16, 1024, 64, 2e-5F, 1e-4F, 2, 4, 24, 400, 1200, 2, 2, 1, 12, .25F, .015F, 4'000'000},
+    {256, 32, 2048, 128, 1e-5F, 2e-5F, 4, 8, 32, 800, 2400, 2, 2, 1, 16, .125F, .004F, 16'000'000},
+    {1024, 64, 4096, 256, 5e-6F, 5e-6F, 8, 16, 48, 1600, 4800, 2, 2, 1, 24, .05F, .0006F, 64'000'000},
 };
 
 // Times its first samples, of one pixel.
@@ -60,6 +63,7 @@ namespace {
 Settings::Integrator integrator_of(const RenderRequest& request) {
   switch (request.integrator) {
     case RenderRequest::Integrator::kPathTrace: return Settings::Integrator::kPathTrace;
+    case RenderRequest::Integrator::kPaths: return Settings::Integrator::kPaths;
     case RenderRequest::Integrator::kRadiosity: return Settings::Integrator::kRadiosity;
     default: return Settings::Integrator::kGather;
   }
@@ -121,6 +125,16 @@ float mean_radiance(const RadiositySolution& solution) {
   return static_cast<float>(luminance(SpectrumD(power)) / (std::numbers::pi * static_cast<double>(root.area)));
 }
 
+/// (paths.6): from quality to quality noise and bias fall together, a disc's area as n^(-1/3).
+void resolve_photons(const RenderRequest& request, std::uint64_t photons, Settings& settings) {
+  if (settings.integrator != Settings::Integrator::kPaths) return;
+  settings.photons = request.photons ? static_cast<std::uint64_t>(*request.photons) : photons;
+  settings.photon_batches = static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.photons, kPhotonBatches));
+  settings.photon_origins = 7;  // all light
+  settings.photon_radius = request.radius.value_or(0);
+  settings.photon_crossings = kCrossings * std::pow(static_cast<float>(settings.photons) / 4e6F, 2.0F / 3);
+}
+
 Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   const QualityRow& quality = kQuality[static_cast<std::size_t>(request.quality)];
   const bool is_path = request.integrator == RenderRequest::Integrator::kPathTrace;
@@ -163,6 +177,7 @@ Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   }
   settings.senders.threshold_scale = is_full || request.threshold ? 0 : quality.threshold_scale;
   settings.senders.threshold = is_full ? 0 : request.threshold.value_or(0);
+  resolve_photons(request, quality.photons, settings);
   return settings;
 }
 

@@ -15,6 +15,8 @@
 namespace radfarm {
 namespace {
 
+constexpr std::uint32_t kMostDiscSamples = 16;  // camera rays a pixel that choose its discs
+
 Film film_of(const View& view, EffectSet off) {
   Film film{view.camera, view.settings.width, view.settings.height, view.settings.seed};
   if (contains(off, Effect::kDepthOfField)) film.camera.lens_diameter = 0;
@@ -50,6 +52,11 @@ SampleEmission emission_integrator(const LitView& lit) {
 
 SampleRadiance integrator(const LitView& lit, const Film& film) {
   if (lit.mesh) return gouraud_integrator(lit, film);
+  if (lit.view.settings.integrator == Settings::Integrator::kPaths) {
+    return [&lit](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
+      return unlit_radiance(lit.world, ray, sampler, counters, first);
+    };
+  }
   if (!lit.senders) return path_integrator(lit.world, lit.has_interreflection());
   const GatherContext context = gather_context(lit);
   if (lit.is_paper()) {
@@ -81,6 +88,14 @@ std::vector<std::byte> run_tile(const LitView& lit, std::uint32_t index) {
   result.aovs = std::move(tile.aovs);
   result.sharing = std::move(tile.sharing);
   return encode(result);
+}
+
+std::vector<std::byte> run_photons(const LitView& lit, std::uint32_t batch) {
+  const Settings& settings = lit.view.settings;
+  const LitView::Photons& photons = lit.photons(film_of(lit.view, settings.effects_off));
+  const std::size_t pixels = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+  return encode(bring_light(lit.world, photons.set, photons.seen.shown, pixels, settings.photon_origins,
+                            {settings.seed, batch, paths_of_batch(settings, batch)}));
 }
 
 std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t index) {
@@ -131,6 +146,18 @@ const World& Prepared::Parts::audited() const {
   return *audit_world;
 }
 
+LitView::Photons::Photons(const LitView& lit, const Film& film)
+    : components(lit.world.scene),
+      seen(see_discs(lit.world, components, film,
+                     {std::min(lit.view.settings.camera_samples, kMostDiscSamples), lit.view.settings.photons,
+                      lit.view.settings.photon_radius, lit.view.settings.photon_crossings, lit.view.settings.photon_origins})),
+      set(lit.world, components, seen.discs) {}
+
+const LitView::Photons& LitView::photons(const Film& film) const {
+  std::call_once(has_photons, [&] { seen_photons.emplace(*this, film); });
+  return *seen_photons;
+}
+
 Prepared::Prepared(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Prepared::Prepared(Prepared&&) noexcept = default;
 Prepared& Prepared::operator=(Prepared&&) noexcept = default;
@@ -142,7 +169,8 @@ Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<cons
   RADFARM_TRY(Scene decoded, decode_scene(scene));
   auto parts = std::make_unique<Parts>(views[0].settings, std::move(decoded));
   std::vector<std::span<const std::byte>> solutions(views.size());
-  if (parts->settings.integrator != Settings::Integrator::kPathTrace) {
+  const Settings::Integrator integrator = parts->settings.integrator;
+  if (integrator != Settings::Integrator::kPathTrace && integrator != Settings::Integrator::kPaths) {
     RADFARM_TRY(solutions, decode_solutions(solution, views.size()));
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -168,6 +196,10 @@ Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& ta
     return fail(Code::kInvalidArgument, "the view has no such task");
   }
   if (task.kind == Task::Kind::kAudit) return run_audit(parts, task.index);
+  if (task.kind == Task::Kind::kPhotons) {
+    const std::uint32_t batches = parts.settings.photon_batches;
+    return run_photons(*parts.lit[task.index / batches], task.index % batches);
+  }
   const auto tiles = static_cast<std::uint32_t>(tile_count(parts.settings));
   return run_tile(*parts.lit[task.index / tiles], task.index % tiles);
 }

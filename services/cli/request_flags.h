@@ -20,7 +20,8 @@ struct RequestFlags {
   std::optional<double> fov, orthographic;
   std::string up = "Y", integrator = "auto", quality = "standard", oracle = to_string(RenderRequest().oracle), effects, gather = "default", criterion = "uniform";
   std::optional<int> samples;
-  std::optional<float> link_error, threshold, lens_diameter, focus_distance;
+  std::optional<std::uint64_t> photons;
+  std::optional<float> radius, link_error, threshold, lens_diameter, focus_distance;
   std::string env;
   std::vector<std::string> ies, aov;
   std::uint64_t seed = 1;

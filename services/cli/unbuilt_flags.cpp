@@ -13,10 +13,7 @@ struct Unbuilt {
 constexpr std::array kUnbuilt = {
     Unbuilt{"--error", "", "use --quality; the audit tells the error that it gave"},
     Unbuilt{"--time", "", "use --quality"},
-    Unbuilt{"--photons", "", "use --integrator gather or path-trace"},
-    Unbuilt{"--radius", "", "use --integrator gather or path-trace"},
-    Unbuilt{"--integrator", "paths", "use auto, radiosity, gather, full-gather or path-trace"},
-    Unbuilt{"--integrator", "photon-map", "use auto, radiosity, gather, full-gather or path-trace"},
+    Unbuilt{"--integrator", "photon-map", "use auto, radiosity, gather, full-gather, paths or path-trace"},
     Unbuilt{"--criterion", "CC", "use uniform"},
     Unbuilt{"--criterion", "VAR", "use uniform"},
     Unbuilt{"--criterion", "KL", "use uniform"},

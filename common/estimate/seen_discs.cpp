@@ -1,0 +1,172 @@
+#include "estimate/seen_discs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "paths/radius.h"
+
+namespace radfarm {
+namespace {
+
+constexpr std::uint64_t kPilotKey = 0x70696c6f74;  // "pilot"
+constexpr std::uint64_t kPilotShare = 64;          // of the paths: one in so many more decides radii
+constexpr std::uint64_t kPilotBatches = 8;
+constexpr float kMostShare = 1.0F / 50;            // of the scene's radius
+constexpr float kOneSurface = 0.95F;               // cosine between normals of what shares a disc
+constexpr float kFlat = 0.1F;                      // height over the tangent plane, over the distance
+constexpr float kWide = 4;                         // footprints that one disc stands for
+
+/// Nothing shines on anything.
+class Darkness : public DiffuseLight {
+ public:
+  Arrived seen(const SeenPoint&, const PixelSampler&, Counters&) const override { return {}; }
+  Arrived beyond(const Hit&, const Vertex&, const Spectrum&, const PixelSampler&, std::uint32_t, Counters&) const override {
+    return {};
+  }
+};
+
+/// The discs of one pixel, in the making.
+class PixelDiscs {
+ public:
+  PixelDiscs(const Components& components, const Film& film, std::uint32_t pixel, std::uint32_t samples)
+      : components_(components), film_(film), pixel_(pixel), share_(1 / static_cast<float>(samples)) {}
+
+  void see(const Hit& hit, const SurfacePoint& point, const Spectrum& weight) {
+    const Disc disc = disc_at(point, components_.of(hit.instance, hit.triangle), 1);
+    const float footprint = footprint_at(point.position);
+    for (std::size_t i = 0; i < found.discs.size(); ++i) {
+      if (!is_shared(found.discs[i], disc, footprint)) continue;
+      found.shown[i].weight += weight * share_;
+      return;
+    }
+    found.discs.push_back(disc);
+    found.shown.push_back({pixel_, weight * share_});
+    found.footprints.push_back(footprint);
+  }
+
+  SeenDiscs found;
+
+ private:
+  static bool is_shared(const Disc& a, const Disc& b, float footprint) {
+    if (a.component != b.component || dot(a.shape.normal, b.shape.normal) < kOneSurface) return false;
+    const Vec3 across = b.shape.centre - a.shape.centre;
+    const float distance = length(across);
+    return distance <= kWide * footprint && std::fabs(dot(across, a.geometric_normal)) <= kFlat * distance;
+  }
+
+  /// How wide a pixel is across the view there, as if it were seen straight.
+  float footprint_at(const Vec3& position) const {
+    const Camera& camera = film_.camera;
+    const auto height = static_cast<float>(film_.height);
+    if (camera.kind == Camera::Kind::kOrthographic) return 2 * camera.half_height / height;
+    return 2 * std::tan(camera.vertical_fov / 2) / height * length(position - camera.position);
+  }
+
+  const Components& components_;
+  const Film& film_;
+  const std::uint32_t pixel_;
+  const float share_;
+};
+
+SeenDiscs see_pixel(const World& world, const Components& components, const Film& film, std::uint32_t pixel, std::uint32_t samples) {
+  const int x = static_cast<int>(pixel) % film.width, y = static_cast<int>(pixel) / film.width;
+  PixelDiscs pixel_discs(components, film, pixel, samples);
+  const SeeReceiver see = [&](const Hit& hit, const SurfacePoint& point, const Spectrum& weight) { pixel_discs.see(hit, point, weight); };
+  const Darkness dark;
+  const EyeChainContext context{world, dark, true, nullptr, &see};
+  Counters counters;
+  const SampleRadiance look = [&](const Ray& ray, const PixelSampler& sampler, Counters& c, FirstSurface*) {
+    return trace_eye_chain(context, ray, sampler, c);
+  };
+  (void)sample_pixel(film, Stream::kPhotonView, x, y, 0, samples, look, counters);
+  return std::move(pixel_discs.found);
+}
+
+void append(SeenDiscs&& more, SeenDiscs& all) {
+  all.discs.insert(all.discs.end(), more.discs.begin(), more.discs.end());
+  all.shown.insert(all.shown.end(), more.shown.begin(), more.shown.end());
+  all.footprints.insert(all.footprints.end(), more.footprints.begin(), more.footprints.end());
+}
+
+SeenDiscs see_all(const World& world, const Components& components, const Film& film, std::uint32_t samples) {
+  const std::size_t pixels = static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
+  constexpr std::size_t kGrain = 256;
+  std::vector<SeenDiscs> pieces((pixels + kGrain - 1) / kGrain);
+  parallel_for(pixels, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      append(see_pixel(world, components, film, static_cast<std::uint32_t>(i), samples), pieces[begin / kGrain]);
+    }
+  });
+  SeenDiscs all;
+  for (SeenDiscs& piece : pieces) append(std::move(piece), all);
+  return all;
+}
+
+/// What a pilot of so many paths brought each disc.
+std::vector<DiscSums> run_pilot(const World& world, const DiscSet& set, OriginSet origins, std::uint64_t seed, std::uint64_t paths) {
+  std::vector<std::vector<DiscSums>> parts(kPilotBatches, std::vector<DiscSums>(set.discs().size()));
+  parallel_for(kPilotBatches, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      add_batch(world, set, origins, {combine(seed, kPilotKey), b, paths / kPilotBatches}, parts[b]);
+    }
+  });
+  for (std::size_t b = 1; b < kPilotBatches; ++b) {
+    for (std::size_t i = 0; i < parts[b].size(); ++i) parts[0][i] += parts[b][i];
+  }
+  return std::move(parts[0]);
+}
+
+void choose_radii(const World& world, const Components& components, std::uint64_t seed, const SeenDiscSettings& settings, SeenDiscs& seen) {
+  const float most = kMostShare * world.radius;
+  const std::uint64_t paths = std::max(kPilotBatches, settings.photons / kPilotShare / kPilotBatches * kPilotBatches);
+  for (Disc& disc : seen.discs) disc.shape.radius = most;
+  const DiscSet set(world, components, seen.discs);
+  const std::vector<DiscSums> pilot = run_pilot(world, set, settings.origins, seed, paths);
+  for (std::size_t i = 0; i < seen.discs.size(); ++i) {
+    const RadiusRule rule{static_cast<double>(settings.crossings), seen.footprints[i], most};
+    seen.discs[i].shape.radius = choose_radius(set.discs()[i], pilot[i], static_cast<double>(paths), static_cast<double>(settings.photons), rule);
+  }
+}
+
+}  // namespace
+
+SeenDiscs see_discs(const World& world, const Components& components, const Film& film, const SeenDiscSettings& settings) {
+  SeenDiscs seen = see_all(world, components, film, settings.samples);
+  if (settings.radius > 0) {
+    for (Disc& disc : seen.discs) disc.shape.radius = settings.radius;
+  } else if (world.emitters.size() > 0) {
+    choose_radii(world, components, film.seed, settings, seen);
+  }
+  return seen;
+}
+
+PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const ShownDisc> shown, std::size_t pixels, OriginSet origins,
+                         const PathBatch& batch) {
+  struct Sums {
+    SpectrumD direct, indirect, specular;
+  };
+  std::vector<Sums> sums(pixels);
+  SeeCrossings see;
+  see.crossing = [&](const Segment& segment, std::uint32_t disc, const CountedArea& area) {
+    Sums& pixel = sums[shown[disc].pixel];
+    SpectrumD& part = segment.origin == Origin::kEmitter ? pixel.direct
+                                                         : (segment.origin == Origin::kDiffuse ? pixel.indirect : pixel.specular);
+    part += SpectrumD(segment.power) * SpectrumD(shown[disc].weight) * (1 / area.whole);
+  };
+  PhotonResult result;
+  result.paths = batch.paths;
+  if (world.emitters.size() > 0) each_crossing(world, set, origins, batch, see);
+  result.pixels.reserve(pixels);
+  for (const Sums& s : sums) result.pixels.push_back({Spectrum(s.direct), Spectrum(s.indirect), Spectrum(s.specular)});
+  return result;
+}
+
+RadianceParts unlit_radiance(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
+  const Darkness dark;
+  return trace_eye_chain({world, dark, true, first, nullptr}, ray, sampler, counters);
+}
+
+}  // namespace radfarm
