@@ -122,10 +122,21 @@ TEST(RequestFlags, TheGatherIsOursOrThePapers) {
   EXPECT_THAT(error_of("--gather paper --integrator path-trace"), HasSubstr("--gather paper"));
 }
 
+TEST(RequestFlags, PhotonsAndRadiusAreOfPaths) {
+  const Result<RenderRequest> request = parse("--integrator paths --photons 5000 --radius .1");
+  ASSERT_TRUE(request) << request.error().message;
+  EXPECT_EQ(request->photons, 5000U);
+  EXPECT_EQ(request->radius, .1F);
+  EXPECT_THAT(error_of("--photons 5"), HasSubstr("--integrator paths"));
+  EXPECT_THAT(error_of("--integrator gather --radius 1"), HasSubstr("--integrator paths"));
+  EXPECT_THAT(error_of("--integrator paths --photons 0"), HasSubstr("--photons is 0"));
+  EXPECT_THAT(error_of("--integrator paths --radius 0"), HasSubstr("--radius"));
+}
+
 TEST(RequestFlags, WhatIsNotBuiltIsRefusedAndNotIgnored) {
-  for (const char* line : {"--error 2%", "--time 60s", "--photons 5", "--radius 1",
+  for (const char* line : {"--error 2%", "--time 60s",
                            "--aov density", "--criterion KL",
-                           "--integrator paths", "--integrator photon-map"}) {
+                           "--integrator photon-map"}) {
     const Result<RenderRequest> request = parse(line);
     ASSERT_FALSE(request) << line;
     EXPECT_EQ(request.error().code, Code::kUnimplemented) << line;

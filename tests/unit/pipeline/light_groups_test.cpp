@@ -137,6 +137,7 @@ INSTANTIATE_TEST_SUITE_P(LightGroups, EveryIntegrator,
                                          std::pair(Integrator::kGather, Gather::kDefault),
                                          std::pair(Integrator::kGather, Gather::kPaper),
                                          std::pair(Integrator::kFullGather, Gather::kDefault),
+                                         std::pair(Integrator::kPaths, Gather::kDefault),
                                          std::pair(Integrator::kRadiosity, Gather::kDefault)));
 
 TEST_P(EveryIntegrator, LayersAddUpToAllButEmission) {
