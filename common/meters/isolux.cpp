@@ -45,7 +45,7 @@ std::vector<double> contour_levels(double least, double most) {
   if (!(most > least) || !std::isfinite(most - least)) return levels;
   const double rough = (most - least) / kLines, power = std::pow(10, std::floor(std::log10(rough)));
   const double step = power * (rough < 1.5 * power ? 1 : rough < 3.5 * power ? 2 : rough < 7.5 * power ? 5 : 10);
-  for (double level = std::ceil(least / step) * step; level <= most; level += step) levels.push_back(level);
+  for (double k = std::ceil(least / step); k * step <= most; ++k) levels.push_back(k * step);
   return levels;
 }
 
