@@ -12,7 +12,7 @@ namespace radfarm {
 struct GatherMeterSettings {
   double error = .02;               // aimed at: half the width of the 95 % interval over the reading
   std::uint64_t pilot = 1024;       // paths a meter that decide how many it gets; in no reading
-  std::uint64_t most = 1 << 20;     // paths a meter
+  std::uint64_t most = 1 << 17;     // paths a meter
   std::uint64_t samples = 0;        // paths a meter; 0: by `error`
   std::uint64_t seed = 1;
 };

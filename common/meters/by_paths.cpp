@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -56,6 +57,11 @@ std::vector<float> radii_by_pilot(const World& world, const Components& componen
   return radii;
 }
 
+/// Of no crossing in n paths, each of `flux` lm, fewer than three were expected, at 95 %.
+double most_unseen(double flux, double paths, float radius) {
+  return 3 * flux / (paths * std::numbers::pi * static_cast<double>(radius) * static_cast<double>(radius));
+}
+
 Reading reading_of(const Replicates& sums, std::size_t disc, double paths_each) {
   Reading reading;
   std::array<double, kReplicates> lux{}, inner{};
@@ -86,7 +92,13 @@ PathReadings measure_by_paths(const World& world, std::span<const Meter> meters,
   const DiscSet set(world, components, discs_at(meters, result.radii));
   const std::uint64_t each = std::max<std::uint64_t>(1, settings.paths / kReplicates);
   const Replicates sums = run(world, set, settings, settings.seed, each, progress);
-  for (std::size_t i = 0; i < meters.size(); ++i) result.readings.push_back(reading_of(sums, i, static_cast<double>(each)));
+  for (std::size_t i = 0; i < meters.size(); ++i) {
+    Reading reading = reading_of(sums, i, static_cast<double>(each));
+    if (reading.samples == 0) {
+      reading.half_width = most_unseen(world.emitters.total_flux, static_cast<double>(each * kReplicates), result.radii[i]);
+    }
+    result.readings.push_back(reading);
+  }
   return result;
 }
 

@@ -8,7 +8,7 @@ namespace {
 TEST(Isolux, LevelsAreRoundNumbers) {
   EXPECT_EQ(contour_levels(0, 800), (std::vector<double>{0, 100, 200, 300, 400, 500, 600, 700, 800}));
   EXPECT_EQ(contour_levels(130, 470).front(), 150);
-  EXPECT_EQ(contour_levels(.7, 3.4)[4], 1.5);
+  EXPECT_EQ(contour_levels(.7, 3.4)[4], 1.6);
   EXPECT_TRUE(contour_levels(5, 5).empty());
 }
 
