@@ -8,8 +8,8 @@
 
 namespace radfarm {
 
-Arrived path_irradiance(const World& world, const SurfacePoint& point, const PixelSampler& sampler, const PixelSampler& onward,
-                        Counters& counters) {
+Arrived path_irradiance(const World& world, const SurfacePoint& point, const PixelSampler& sampler,
+                        const PixelSampler& onward, Counters& counters) {
   const NextEvent event = sample_emitter(world, point, sampler.one(1), sampler.two(2));
   counters.visibility_rays += event.traced ? 1 : 0;
   const Spectrum direct = event.weight * std::max(0.0F, dot(point.shading_normal, event.direction));

@@ -14,16 +14,17 @@ namespace {
 constexpr std::uint64_t kPilotKey = 0x70696c6f74;  // "pilot"
 constexpr std::uint64_t kPilotShare = 64;          // of the paths: one in so many more decides radii
 constexpr std::uint64_t kPilotBatches = 8;
-constexpr float kMostShare = 1.0F / 50;            // of the scene's radius
-constexpr float kOneSurface = 0.95F;               // cosine between normals of what shares a disc
-constexpr float kFlat = 0.1F;                      // height over the tangent plane, over the distance
-constexpr float kWide = 4;                         // footprints that one disc stands for
+constexpr float kMostShare = 1.0F / 50;  // of the scene's radius
+constexpr float kOneSurface = 0.95F;     // cosine between normals of what shares a disc
+constexpr float kFlat = 0.1F;            // height over the tangent plane, over the distance
+constexpr float kWide = 4;               // footprints that one disc stands for
 
 /// Nothing shines on anything.
 class Darkness : public DiffuseLight {
  public:
   Arrived seen(const SeenPoint&, const PixelSampler&, Counters&) const override { return {}; }
-  Arrived beyond(const Hit&, const Vertex&, const Spectrum&, const PixelSampler&, std::uint32_t, Counters&) const override {
+  Arrived beyond(const Hit&, const Vertex&, const Spectrum&, const PixelSampler&, std::uint32_t,
+                 Counters&) const override {
     return {};
   }
 };
@@ -71,10 +72,13 @@ class PixelDiscs {
   const float share_;
 };
 
-SeenDiscs see_pixel(const World& world, const Components& components, const Film& film, std::uint32_t pixel, std::uint32_t samples) {
+SeenDiscs see_pixel(const World& world, const Components& components, const Film& film, std::uint32_t pixel,
+                    std::uint32_t samples) {
   const int x = static_cast<int>(pixel) % film.width, y = static_cast<int>(pixel) / film.width;
   PixelDiscs pixel_discs(components, film, pixel, samples);
-  const SeeReceiver see = [&](const Hit& hit, const SurfacePoint& point, const Spectrum& weight) { pixel_discs.see(hit, point, weight); };
+  const SeeReceiver see = [&](const Hit& hit, const SurfacePoint& point, const Spectrum& weight) {
+    pixel_discs.see(hit, point, weight);
+  };
   const Darkness dark;
   const EyeChainContext context{world, dark, true, nullptr, &see};
   Counters counters;
@@ -106,7 +110,8 @@ SeenDiscs see_all(const World& world, const Components& components, const Film& 
 }
 
 /// What a pilot of so many paths brought each disc.
-std::vector<DiscSums> run_pilot(const World& world, const DiscSet& set, OriginSet origins, std::uint64_t seed, std::uint64_t paths) {
+std::vector<DiscSums> run_pilot(const World& world, const DiscSet& set, OriginSet origins, std::uint64_t seed,
+                                std::uint64_t paths) {
   std::vector<std::vector<DiscSums>> parts(kPilotBatches, std::vector<DiscSums>(set.discs().size()));
   parallel_for(kPilotBatches, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -119,7 +124,8 @@ std::vector<DiscSums> run_pilot(const World& world, const DiscSet& set, OriginSe
   return std::move(parts[0]);
 }
 
-void choose_radii(const World& world, const Components& components, std::uint64_t seed, const SeenDiscSettings& settings, SeenDiscs& seen) {
+void choose_radii(const World& world, const Components& components, std::uint64_t seed,
+                  const SeenDiscSettings& settings, SeenDiscs& seen) {
   const float most = kMostShare * world.radius;
   const std::uint64_t paths = std::max(kPilotBatches, settings.photons / kPilotShare / kPilotBatches * kPilotBatches);
   for (Disc& disc : seen.discs) disc.shape.radius = most;
@@ -127,13 +133,15 @@ void choose_radii(const World& world, const Components& components, std::uint64_
   const std::vector<DiscSums> pilot = run_pilot(world, set, settings.origins, seed, paths);
   for (std::size_t i = 0; i < seen.discs.size(); ++i) {
     const RadiusRule rule{static_cast<double>(settings.crossings), seen.footprints[i], most};
-    seen.discs[i].shape.radius = choose_radius(set.discs()[i], pilot[i], static_cast<double>(paths), static_cast<double>(settings.photons), rule);
+    seen.discs[i].shape.radius = choose_radius(set.discs()[i], pilot[i], static_cast<double>(paths),
+                                               static_cast<double>(settings.photons), rule);
   }
 }
 
 }  // namespace
 
-SeenDiscs see_discs(const World& world, const Components& components, const Film& film, const SeenDiscSettings& settings) {
+SeenDiscs see_discs(const World& world, const Components& components, const Film& film,
+                    const SeenDiscSettings& settings) {
   SeenDiscs seen = see_all(world, components, film, settings.samples);
   if (settings.radius > 0) {
     for (Disc& disc : seen.discs) disc.shape.radius = settings.radius;
@@ -143,8 +151,8 @@ SeenDiscs see_discs(const World& world, const Components& components, const Film
   return seen;
 }
 
-PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const ShownDisc> shown, std::size_t pixels, OriginSet origins,
-                         const PathBatch& batch) {
+PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const ShownDisc> shown, std::size_t pixels,
+                         OriginSet origins, const PathBatch& batch) {
   struct Sums {
     SpectrumD direct, indirect, specular;
   };
@@ -152,8 +160,9 @@ PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const
   SeeCrossings see;
   see.crossing = [&](const Segment& segment, std::uint32_t disc, const CountedArea& area) {
     Sums& pixel = sums[shown[disc].pixel];
-    SpectrumD& part = segment.origin == Origin::kEmitter ? pixel.direct
-                                                         : (segment.origin == Origin::kDiffuse ? pixel.indirect : pixel.specular);
+    SpectrumD& part = segment.origin == Origin::kEmitter
+                          ? pixel.direct
+                          : (segment.origin == Origin::kDiffuse ? pixel.indirect : pixel.specular);
     part += SpectrumD(segment.power) * SpectrumD(shown[disc].weight) * (1 / area.whole);
   };
   PhotonResult result;
@@ -164,7 +173,8 @@ PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const
   return result;
 }
 
-RadianceParts unlit_radiance(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
+RadianceParts unlit_radiance(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters,
+                             FirstSurface* first) {
   const Darkness dark;
   return trace_eye_chain({world, dark, true, first, nullptr}, ray, sampler, counters);
 }

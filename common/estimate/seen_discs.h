@@ -16,7 +16,7 @@ struct ShownDisc {
   Spectrum weight;
 };
 
-/// Discs on the diffuse surfaces that an image shows, by whatever mirrors and glass.                docs/pipeline.md (paths.7)
+/// Discs on the diffuse surfaces that an image shows, by whatever mirrors and glass. docs/pipeline.md (paths.7)
 struct SeenDiscs {
   std::vector<Disc> discs;
   std::vector<ShownDisc> shown;   // one a disc
@@ -24,22 +24,25 @@ struct SeenDiscs {
 };
 
 struct SeenDiscSettings {
-  std::uint32_t samples = 16;   // camera rays a pixel; those that look at one surface share a disc
-  std::uint64_t photons = 0;    // paths that will be counted
-  float radius = 0;             // m, of all; 0: each as wide as brings it `crossings` of the paths
+  std::uint32_t samples = 16;  // camera rays a pixel; those that look at one surface share a disc
+  std::uint64_t photons = 0;   // paths that will be counted
+  float radius = 0;            // m, of all; 0: each as wide as brings it `crossings` of the paths
   float crossings = 400;
   OriginSet origins = kAllOrigins;
 };
 
-/// Follows the eye chains of every pixel, then a pilot of light paths that decides radii: between the pixel's footprint and a fiftieth of
-/// the scene. The same discs for any number of threads. Uses all of them: about 2 us a camera ray and 20 us a disc.
-SeenDiscs see_discs(const World& world, const Components& components, const Film& film, const SeenDiscSettings& settings);
+/// Follows the eye chains of every pixel, then a pilot of light paths that decides radii: between the pixel's footprint
+/// and a fiftieth of the scene. The same discs for any number of threads. Uses all of them: about 2 us a camera ray and
+/// 20 us a disc.
+SeenDiscs see_discs(const World& world, const Components& components, const Film& film,
+                    const SeenDiscSettings& settings);
 
 /// What a batch of light paths brings each pixel by its discs.
-PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const ShownDisc> shown, std::size_t pixels, OriginSet origins,
-                         const PathBatch& batch);
+PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const ShownDisc> shown, std::size_t pixels,
+                         OriginSet origins, const PathBatch& batch);
 
 /// An eye chain that sees no light on diffuse surfaces: emission, highlights, what mirrors show of emitters.
-RadianceParts unlit_radiance(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first);
+RadianceParts unlit_radiance(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters,
+                             FirstSurface* first);
 
 }  // namespace radfarm

@@ -25,14 +25,15 @@ tl::unexpected<Error> invalid(std::string message) { return fail(Code::kInvalidA
 
 Status check_range(std::string_view flag, const std::optional<int>& value, int least, int most) {
   if (!value || (*value >= least && *value <= most)) return {};
-  return invalid(std::string(flag) + " is " + std::to_string(*value) + ", must be from " + std::to_string(least) + " to " +
-                 std::to_string(most));
+  return invalid(std::string(flag) + " is " + std::to_string(*value) + ", must be from " + std::to_string(least) +
+                 " to " + std::to_string(most));
 }
 
 bool finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 Status check_camera(const PlacedCamera& camera) {
-  if (!finite(camera.eye) || !finite(camera.look_at)) return invalid("--eye and --look-at: every number must be finite");
+  if (!finite(camera.eye) || !finite(camera.look_at))
+    return invalid("--eye and --look-at: every number must be finite");
   if (!finite(camera.up_vector) || length(camera.up_vector) == 0) {
     return invalid("--up-vector: must be finite and not zero");
   }
@@ -46,7 +47,8 @@ Status check_camera(const PlacedCamera& camera) {
     return invalid("--fov is " + std::to_string(camera.vertical_fov_degrees) + " degrees, must be between 0 and 180");
   }
   if (camera.orthographic_height && !(*camera.orthographic_height > 0 && std::isfinite(*camera.orthographic_height))) {
-    return invalid("--orthographic is " + std::to_string(*camera.orthographic_height) + " m, must be positive and finite");
+    return invalid("--orthographic is " + std::to_string(*camera.orthographic_height) +
+                   " m, must be positive and finite");
   }
   return {};
 }
@@ -80,7 +82,8 @@ Status check_photons(const RenderRequest& request) {
     return invalid("--photons and --radius are of photon paths: they need --integrator paths");
   }
   if (request.photons && !(*request.photons >= 1 && *request.photons <= kMaxPhotons)) {
-    return invalid("--photons is " + std::to_string(*request.photons) + ", must be between 1 and " + std::to_string(kMaxPhotons));
+    return invalid("--photons is " + std::to_string(*request.photons) + ", must be between 1 and " +
+                   std::to_string(kMaxPhotons));
   }
   if (request.radius && !(*request.radius > 0 && *request.radius <= 1e6F)) {
     return invalid("--radius is " + std::to_string(*request.radius) + " m, must be positive");
@@ -106,7 +109,8 @@ Status validate(const RenderRequest& request) {
     return invalid("--lens-diameter is " + std::to_string(*request.lens_diameter) + " m, must not be negative");
   }
   if (request.focus_distance && !(*request.focus_distance > 0 && *request.focus_distance <= 1e18F)) {
-    return invalid("--focus-distance is " + std::to_string(*request.focus_distance) + " m, must be positive and finite");
+    return invalid("--focus-distance is " + std::to_string(*request.focus_distance) +
+                   " m, must be positive and finite");
   }
   RADFARM_TRY_STATUS(check_photons(request));
   const bool is_gather = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity &&

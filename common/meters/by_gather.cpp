@@ -37,7 +37,8 @@ struct MeterSampler {
 
   std::array<SpectrumD, kReplicates> replicates(Part own, Part onward, std::uint64_t paths) const {
     std::array<SpectrumD, kReplicates> means;
-    for (std::size_t r = 0; r < kReplicates; ++r) means[r] = mean(own, onward, r, std::max<std::uint64_t>(1, paths / kReplicates));
+    const std::uint64_t each = std::max<std::uint64_t>(1, paths / kReplicates);
+    for (std::size_t r = 0; r < kReplicates; ++r) means[r] = mean(own, onward, r, each);
     return means;
   }
 };
@@ -64,7 +65,8 @@ Reading reading_of(const std::array<SpectrumD, kReplicates>& means) {
 std::uint64_t needed(const Reading& pilot, const GatherMeterSettings& settings) {
   const double share = pilot.lux() > 0 ? pilot.half_width / pilot.lux() / settings.error : 1;
   const double paths = static_cast<double>(settings.pilot) * share * share;
-  return static_cast<std::uint64_t>(std::clamp(paths, static_cast<double>(settings.pilot), static_cast<double>(settings.most)));
+  return static_cast<std::uint64_t>(
+      std::clamp(paths, static_cast<double>(settings.pilot), static_cast<double>(settings.most)));
 }
 
 Reading measure_one(const MeterSampler& meter, const GatherMeterSettings& settings) {
@@ -77,8 +79,8 @@ Reading measure_one(const MeterSampler& meter, const GatherMeterSettings& settin
 
 }  // namespace
 
-std::vector<Reading> measure_by_gather(const World& world, std::span<const Meter> meters, const GatherMeterSettings& settings,
-                                       const Progress& progress) {
+std::vector<Reading> measure_by_gather(const World& world, std::span<const Meter> meters,
+                                       const GatherMeterSettings& settings, const Progress& progress) {
   std::vector<Reading> readings(meters.size());
   parallel_for(progress, "meters", meters.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -20,7 +20,8 @@ constexpr float kMostShare = 1.0F / 50;            // of the scene's radius
 std::vector<Disc> discs_at(std::span<const Meter> meters, std::span<const float> radii) {
   std::vector<Disc> discs;
   discs.reserve(meters.size());
-  for (std::size_t i = 0; i < meters.size(); ++i) discs.push_back(disc_in_air(meters[i].point, meters[i].normal, radii[i]));
+  for (std::size_t i = 0; i < meters.size(); ++i)
+    discs.push_back(disc_in_air(meters[i].point, meters[i].normal, radii[i]));
   return discs;
 }
 
@@ -72,7 +73,8 @@ Reading reading_of(const Replicates& sums, std::size_t disc, double paths_each) 
     lux[r] = luminance(one.flux) / paths_each;
     inner[r] = one.inner / paths_each - lux[r];
   }
-  // The bias goes with the disc's area: the inner half has half of it. What chance alone explains of the difference counts little.
+  // The bias goes with the disc's area: the inner half has half of it. What chance alone explains of the difference
+  // counts little.
   double difference = 0;
   for (const double d : inner) difference += d / kReplicates;
   const double chance = half_width_of(inner), squares = difference * difference;
@@ -95,7 +97,8 @@ PathReadings measure_by_paths(const World& world, std::span<const Meter> meters,
   for (std::size_t i = 0; i < meters.size(); ++i) {
     Reading reading = reading_of(sums, i, static_cast<double>(each));
     if (reading.samples == 0) {
-      reading.half_width = most_unseen(world.emitters.total_flux, static_cast<double>(each * kReplicates), result.radii[i]);
+      reading.half_width =
+          most_unseen(world.emitters.total_flux, static_cast<double>(each * kReplicates), result.radii[i]);
     }
     result.readings.push_back(reading);
   }

@@ -24,10 +24,9 @@ struct PathReadings {
   std::vector<float> radii;  // m, one a meter
 };
 
-/// Readings by photon paths through discs around the meters: all light, caustics too.        docs/pipeline.md (meters.2)
-/// The interval is that of kReplicates independent batches, and wider by what the inner half of the disc says of the radius's bias; where no path
-/// came, up to what three paths would have brought.
-/// The same numbers for any number of threads. Requires: emitters. Cost: see add_batch().
+/// Readings by photon paths through discs around the meters: all light, caustics too. docs/pipeline.md (meters.2) The interval is that of kReplicates independent batches, and wider by what the inner half of the disc
+/// says of the radius's bias; where no path came, up to what three paths would have brought. The same numbers for any
+/// number of threads. Requires: emitters. Cost: see add_batch().
 PathReadings measure_by_paths(const World& world, std::span<const Meter> meters, const PathMeterSettings& settings,
                               const Progress& progress = {});
 

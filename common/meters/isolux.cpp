@@ -22,8 +22,10 @@ std::optional<double> illuminance_at(const WorkPlane& plane, std::span<const Rea
   double sum = 0, weights = 0;
   for (int corner = 0; corner < 4; ++corner) {
     const double column = std::floor(x - .5) + (corner & 1), row = std::floor(z - .5) + (corner >> 1);
-    if (column < 0 || row < 0 || column >= static_cast<double>(plane.columns) || row >= static_cast<double>(plane.rows)) continue;
-    const std::uint32_t meter = plane.meter_of[static_cast<std::size_t>(row) * plane.columns + static_cast<std::size_t>(column)];
+    if (column < 0 || row < 0 || column >= static_cast<double>(plane.columns) || row >= static_cast<double>(plane.rows))
+      continue;
+    const std::uint32_t meter =
+        plane.meter_of[static_cast<std::size_t>(row) * plane.columns + static_cast<std::size_t>(column)];
     if (meter == kNone) continue;
     const double weight = (1 - std::fabs(x - .5 - column)) * (1 - std::fabs(z - .5 - row));
     sum += weight * readings[meter].lux();
@@ -49,7 +51,8 @@ std::vector<double> contour_levels(double least, double most) {
   return levels;
 }
 
-Result<std::vector<std::byte>> isolux_png(const WorkPlane& plane, std::span<const Reading> readings, std::span<const double> levels) {
+Result<std::vector<std::byte>> isolux_png(const WorkPlane& plane, std::span<const Reading> readings,
+                                          std::span<const double> levels) {
   const std::size_t scale = std::max<std::size_t>(1, kLongerSide / std::max(plane.columns, plane.rows));
   const std::size_t width = plane.columns * scale, height = plane.rows * scale;
   const Summary summary = summarise(readings);

@@ -58,7 +58,9 @@ Result<std::vector<Meter>> read_meters(std::string_view csv, const Vec3d& origin
     csv.remove_prefix(std::min(csv.size(), end + 1));
     if (text.empty() || text.front() == '#') continue;
     const auto values = numbers(text);
-    if (!values && !may_be_header) return fail(Code::kInvalidArgument, "line " + std::to_string(line) + ": '" + std::string(text.substr(0, 60)) + "' is not numbers with commas between");
+    if (!values && !may_be_header)
+      return fail(Code::kInvalidArgument, "line " + std::to_string(line) + ": '" + std::string(text.substr(0, 60)) +
+                                              "' is not numbers with commas between");
     may_be_header = false;
     if (!values) continue;
     RADFARM_TRY(const Meter meter, meter_of(*values, line, origin));
@@ -75,8 +77,9 @@ std::string write_readings(std::span<const Meter> meters, std::span<const Readin
     const Vec3d p = to_double(meters[i].point) + origin;
     const Vec3& n = meters[i].normal;
     const Reading& r = readings[i];
-    fmt::format_to(std::back_inserter(text), "{:.7g},{:.7g},{:.7g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n",
-                   p.x, p.y, p.z, n.x, n.y, n.z, r.lux(), std::max(0.0, r.lux() - r.half_width), r.lux() + r.half_width,
+    fmt::format_to(std::back_inserter(text),
+                   "{:.7g},{:.7g},{:.7g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", p.x, p.y,
+                   p.z, n.x, n.y, n.z, r.lux(), std::max(0.0, r.lux() - r.half_width), r.lux() + r.half_width,
                    r.irradiance.r, r.irradiance.g, r.irradiance.b, r.samples);
   }
   return text;

@@ -10,12 +10,12 @@
 namespace radfarm {
 namespace {
 
-constexpr float kFacesUp = 0.95F;      // cosine to the vertical
-constexpr double kLevelShare = .25;    // of the largest level's area: enough to be a floor
-constexpr double kLevelHeight = .05;   // m, of one level
+constexpr float kFacesUp = 0.95F;     // cosine to the vertical
+constexpr double kLevelShare = .25;   // of the largest level's area: enough to be a floor
+constexpr double kLevelHeight = .05;  // m, of one level
 constexpr double kMostCells = 1e7;
-constexpr int kMostSurfaces = 64;      // under a meter, on the way down to the floor
-constexpr float kLeastPlace = 1;       // m^2, of a place where people work
+constexpr int kMostSurfaces = 64;  // under a meter, on the way down to the floor
+constexpr float kLeastPlace = 1;   // m^2, of a place where people work
 
 /// What faces up at about one height.
 struct Level {
@@ -32,7 +32,8 @@ std::map<long, Level> horizontal_levels(const World& world) {
       const TriangleVertices v = world.surfaces.triangle(i, t);
       const Vec3 across = cross(v[1] - v[0], v[2] - v[0]);
       if (!(across.y > kFacesUp * length(across))) continue;
-      const double area = static_cast<double>(length(across)) / 2, y = static_cast<double>(v[0].y + v[1].y + v[2].y) / 3;
+      const double area = static_cast<double>(length(across)) / 2,
+                   y = static_cast<double>(v[0].y + v[1].y + v[2].y) / 3;
       Level& level = levels[std::lround(y / kLevelHeight)];
       level.area += area;
       level.height += area * y;
@@ -57,7 +58,8 @@ Result<Floor> find_floor(const World& world, const std::optional<float>& given) 
       return Floor{given.value_or(height), level.box};
     }
   }
-  return fail(Code::kInvalidArgument, given ? "--floor: no surface there faces up" : "no floor: no surface faces up; name its height by --floor");
+  return fail(Code::kInvalidArgument, given ? "--floor: no surface there faces up"
+                                            : "no floor: no surface faces up; name its height by --floor");
 }
 
 struct Place {
@@ -86,7 +88,8 @@ Place look_around(const World& world, const Vec3& point, float floor) {
 }
 
 /// Cells that see a neighbour's centre are of one place; small places are cupboards, or what stands between walls.
-void leave_out_small_places(const World& world, const std::vector<Vec3>& centres, std::size_t columns, float spacing, std::vector<bool>& has_meter) {
+void leave_out_small_places(const World& world, const std::vector<Vec3>& centres, std::size_t columns, float spacing,
+                            std::vector<bool>& has_meter) {
   DisjointSets places(centres.size());
   for (std::uint32_t i = 0; i < centres.size(); ++i) {
     const auto right = static_cast<std::uint32_t>(i + 1), below = static_cast<std::uint32_t>(i + columns);
@@ -111,7 +114,8 @@ std::vector<bool> choose_cells(const World& world, const WorkPlane& plane, const
   parallel_for(places.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) places[i] = look_around(world, centres[i], plane.floor);
   });
-  const auto roofed = std::count_if(places.begin(), places.end(), [](const Place& p) { return p.is_over_floor && p.is_under_roof; });
+  const auto roofed =
+      std::count_if(places.begin(), places.end(), [](const Place& p) { return p.is_over_floor && p.is_under_roof; });
   const auto over = std::count_if(places.begin(), places.end(), [](const Place& p) { return p.is_over_floor; });
   std::vector<bool> has_meter;
   for (const Place& p : places) has_meter.push_back(p.is_over_floor && (4 * roofed < over || p.is_under_roof));
@@ -123,11 +127,15 @@ std::vector<bool> choose_cells(const World& world, const WorkPlane& plane, const
 
 Result<WorkPlane> make_work_plane(const World& world, const WorkPlaneSettings& settings) {
   RADFARM_TRY(const Floor floor, find_floor(world, settings.floor));
-  const double wide = static_cast<double>(floor.box.max.x - floor.box.min.x), deep = static_cast<double>(floor.box.max.z - floor.box.min.z);
+  const double wide = static_cast<double>(floor.box.max.x - floor.box.min.x),
+               deep = static_cast<double>(floor.box.max.z - floor.box.min.z);
   const double spacing = static_cast<double>(settings.spacing);
-  const double columns = std::max(1.0, std::floor(wide / spacing + 1e-3)), rows = std::max(1.0, std::floor(deep / spacing + 1e-3));
-  if (columns * rows > kMostCells) return fail(Code::kInvalidArgument, "--spacing: more than 10000000 points; a wider one");
-  WorkPlane plane{floor.height, {}, settings.spacing, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows), {}, {}};
+  const double columns = std::max(1.0, std::floor(wide / spacing + 1e-3)),
+               rows = std::max(1.0, std::floor(deep / spacing + 1e-3));
+  if (columns * rows > kMostCells)
+    return fail(Code::kInvalidArgument, "--spacing: more than 10000000 points; a wider one");
+  WorkPlane plane{floor.height, {}, settings.spacing, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows),
+                  {},           {}};
   // What the spacing leaves over is shared by both sides.
   plane.corner = {floor.box.min.x + static_cast<float>((wide - columns * spacing) / 2), floor.height + settings.height,
                   floor.box.min.z + static_cast<float>((deep - rows * spacing) / 2)};
@@ -143,7 +151,8 @@ Result<WorkPlane> make_work_plane(const World& world, const WorkPlaneSettings& s
     plane.meter_of[i] = static_cast<std::uint32_t>(plane.meters.size());
     plane.meters.push_back({centres[i], {0, 1, 0}});
   }
-  if (plane.meters.empty()) return fail(Code::kInvalidArgument, "no point of the work plane lies over the floor, in the open");
+  if (plane.meters.empty())
+    return fail(Code::kInvalidArgument, "no point of the work plane lies over the floor, in the open");
   return plane;
 }
 

@@ -8,21 +8,22 @@ namespace radfarm {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
-constexpr double kParallel = 1e-7;       // cosine of what never counts: its share of any flux is less
-constexpr double kLeastCosine = 0.05;    // of the length that a segment may go on
-constexpr double kRounding = 0x1p-19;    // of a distance, over the coordinates: Embree's and ours in float
+constexpr double kParallel = 1e-7;                    // cosine of what never counts: its share of any flux is less
+constexpr double kLeastCosine = 0.05;                 // of the length that a segment may go on
+constexpr double kRounding = 0x1p-19;                 // of a distance, over the coordinates: Embree's and ours in float
 constexpr std::uint64_t kSecondKey = 0x7365636f6e64;  // "second"
 
 double largest_coordinate(const Vec3& a, const Vec3& b) {
   return static_cast<double>(std::max(max_abs_component(a), max_abs_component(b)));
 }
 
-/// Half the angle of a sector is on either side of its direction.
+/// Angles between which a sector of a disc lies.
 struct Sector {
   double begin, end;
 };
 
-/// Area of the sector up to `radius` that lies at x cos(a) + y sin(a) > -d, seen from the centre: by 8 slices.
+/// Area of the sector up to `radius` on the near side of a line at distance d of the centre, whose normal has the
+/// angle; by 8 slices.
 double sector_beyond(Sector sector, double radius, double angle, double d) {
   constexpr int kSlices = 8;
   const double width = (sector.end - sector.begin) / kSlices;
@@ -66,18 +67,22 @@ double Crossing::second_surface() {
   return second_;
 }
 
-/// Whether the surface that the segment meets is the disc's own, or one that it goes on with, as near as the disc is wide.
+/// Whether the surface that the segment meets is the disc's own, or one that it goes on with, as near as the disc is
+/// wide.
 bool Crossing::belongs_to_surface(const Disc& disc, double distance, double cosine) const {
   if (!continues(disc.geometric_normal, segment_.end_normal)) return false;
   const double radius = static_cast<double>(disc.shape.radius);
   const double beyond = distance - static_cast<double>(segment_.end);
   if (beyond > 2 * radius / std::max(-cosine, kLeastCosine)) return false;
   if (set_.components().of(segment_.instance, segment_.triangle) == disc.component) return true;
-  // Of another object: one that bends away from the tangent plane no more than its own slope says. Not a sheet above it.
-  const Vec3d met = to_double(segment_.ray.origin) + to_double(segment_.ray.direction) * static_cast<double>(segment_.end);
+  // Of another object: one that bends away from the tangent plane no more than its own slope says. Not a sheet above
+  // it.
+  const Vec3d met =
+      to_double(segment_.ray.origin) + to_double(segment_.ray.direction) * static_cast<double>(segment_.end);
   const Vec3d from = met - to_double(disc.shape.centre);
   const Vec3d normal = to_double(disc.geometric_normal);
-  const double height = std::fabs(dot(from, normal)), across = std::sqrt(std::max(0.0, from.length2() - height * height));
+  const double height = std::fabs(dot(from, normal)),
+               across = std::sqrt(std::max(0.0, from.length2() - height * height));
   const double slope = std::clamp(dot(normal, to_double(segment_.end_normal)), 0.0, 1.0);
   const double rise = slope > 0 ? std::sqrt(1 - slope * slope) / slope : 0;
   return height <= across * rise + kRounding * largest_coordinate(disc.shape.centre, segment_.ray.origin);
@@ -85,12 +90,14 @@ bool Crossing::belongs_to_surface(const Disc& disc, double distance, double cosi
 
 bool Crossing::is_before_surface(const Disc& disc, double distance, double cosine) {
   if (segment_.instance == kNone) return true;
-  const double slack = kRounding * largest_coordinate(disc.shape.centre, segment_.ray.origin) / std::max(-cosine, kLeastCosine);
+  const double slack =
+      kRounding * largest_coordinate(disc.shape.centre, segment_.ray.origin) / std::max(-cosine, kLeastCosine);
   const double end = static_cast<double>(segment_.end);
   if (distance <= end) return true;
   if (disc.component == Disc::kInAir) return false;
   if (!rules_.goes_on) return distance <= end + slack;
-  if (distance <= end + slack && set_.components().of(segment_.instance, segment_.triangle) == disc.component) return true;
+  if (distance <= end + slack && set_.components().of(segment_.instance, segment_.triangle) == disc.component)
+    return true;
   return belongs_to_surface(disc, distance, cosine) && distance <= second_surface() + slack;
 }
 
@@ -108,7 +115,8 @@ double Crossing::free_area(const Disc& disc, const Reach* reach, double radius) 
   }
   if (reach == nullptr) return radius * radius * disc_segment(d / radius);
   const Frame frame(disc.shape.normal);
-  const double angle = sine > 0 ? std::atan2(dot(across, to_double(frame.bitangent)), dot(across, to_double(frame.tangent))) : 0;
+  const double angle =
+      sine > 0 ? std::atan2(dot(across, to_double(frame.bitangent)), dot(across, to_double(frame.tangent))) : 0;
   double area = 0;
   for (std::size_t k = 0; k < kSectors; ++k) {
     const double width = 2 * kPiD / kSectors, begin = static_cast<double>(k) * width;

@@ -77,8 +77,9 @@ PathLosses each_crossing(const World& world, const DiscSet& discs, OriginSet ori
 PathLosses add_batch(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,
                      std::span<DiscSums> sums, const CrossingRules& rules) {
   Adder adder(sums);
-  const SeeCrossings see{[&](const Segment& segment, std::uint32_t disc, const CountedArea& area) { adder.add(segment, disc, area); },
-                         [&] { adder.end_path(); }};
+  const SeeCrossings see{
+      [&](const Segment& segment, std::uint32_t disc, const CountedArea& area) { adder.add(segment, disc, area); },
+      [&] { adder.end_path(); }};
   return each_crossing(world, discs, origins, batch, see, rules);
 }
 

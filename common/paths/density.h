@@ -39,8 +39,7 @@ struct SeeCrossings {
   std::function<void()> end_path;  // may be empty
 };
 
-/// Shows where segments of a batch's paths, of the classes in `origins`, count at discs, path by path.   docs/pipeline.md (paths.2)
-/// On the caller's thread. Requires: emitters.size() > 0. Cost: a few us a segment, and what is crossed.
+/// Shows where segments of a batch's paths, of the classes in `origins`, count at discs, path by path. docs/pipeline.md (paths.2) On the caller's thread. Requires: emitters.size() > 0. Cost: a few us a segment, and what is crossed.
 PathLosses each_crossing(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,
                          const SeeCrossings& see, const CrossingRules& rules = {});
 

@@ -15,15 +15,15 @@ namespace radfarm {
 /// docs/pipeline.md (paths.2), [3]
 struct Disc {
   static constexpr std::uint64_t kInAir = ~std::uint64_t{0};
-  OrientedDisc shape;                 // the normal is the shading normal: light arrives against it
-  Vec3 geometric_normal{0, 0, 1};     // of the surface, on the same side
-  Vec3 start{0, 0, 0};                // the point off its surface
-  std::uint64_t component = kInAir;   // Components::of
+  OrientedDisc shape;                // the normal is the shading normal: light arrives against it
+  Vec3 geometric_normal{0, 0, 1};    // of the surface, on the same side
+  Vec3 start{0, 0, 0};               // the point off its surface
+  std::uint64_t component = kInAir;  // Components::of
 };
 
-/// How far a disc reaches along its plane before something stands on it, as a share of its radius: one a sector. What lies beyond
-/// is no part of it: paths there are not counted, and its area is what is left. So neither the far side of a thin wall nor
-/// the inside of what stands on a floor count as dark floor.                                            (paths.4)
+/// How far a disc reaches along its plane before something stands on it, as a share of its radius: one a sector. What
+/// lies beyond is no part of it: paths there are not counted, and its area is what is left. So neither the far side of
+/// a thin wall nor the inside of what stands on a floor count as dark floor. (paths.4)
 constexpr std::size_t kSectors = 16;
 using Reach = std::array<std::uint8_t, kSectors>;  // in 255ths
 constexpr std::uint8_t kWhole = 255;
@@ -58,7 +58,8 @@ class DiscSet {
 /// How far the disc reaches in each sector.
 Reach measure_reach(const World& world, const Disc& disc);
 
-/// Whether a surface that faces a disc like this goes on with the disc's own, rather than standing on it: within 60 degrees.
+/// Whether a surface that faces a disc like this goes on with the disc's own, rather than standing on it: within 60
+/// degrees.
 inline bool continues(const Vec3& disc_normal, const Vec3& normal) { return dot(disc_normal, normal) > 0.5F; }
 
 }  // namespace radfarm

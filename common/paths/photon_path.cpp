@@ -15,7 +15,8 @@ namespace {
 
 // 1 would let a path go on without end where nothing absorbs.
 constexpr float kMaxSurvival = 0.9999F;
-// What is a surface's least probable part to be chosen, as a share: an albedo is a mean, and may be dark towards one side.
+// What is a surface's least probable part to be chosen, as a share: an albedo is a mean, and may be dark towards one
+// side.
 constexpr float kLeastChoice = 0.05F;
 
 /// The random numbers of one bounce of one path.
@@ -81,15 +82,15 @@ Scattered scatter_diffuse(const Vertex& v, const BounceSampler& sampler) {
 Scattered scatter_specular(const Vertex& v, const BounceSampler& sampler) {
   const Bsdf::Sample sample = v.bsdf.sample_specular(sampler.one(kLobe), sampler.two(kWay));
   if (is_black(sample.weight)) return {};
-  const bool agree = dot(v.point.shading_normal, sample.direction) * dot(v.point.geometric_normal, sample.direction) > 0;
+  const bool agree =
+      dot(v.point.shading_normal, sample.direction) * dot(v.point.geometric_normal, sample.direction) > 0;
   if (!agree) return {};
   return {{leave(v.point, sample.direction), sample.direction},
-          sample.weight * adjoint(v.point, v.in, sample.direction), Origin::kSpecular};
+          sample.weight * adjoint(v.point, v.in, sample.direction),
+          Origin::kSpecular};
 }
 
-Scattered go_straight(const Vertex& v) {
-  return {{leave(v.point, -v.in), -v.in}, v.straight, Origin::kSpecular, true};
-}
+Scattered go_straight(const Vertex& v) { return {{leave(v.point, -v.in), -v.in}, v.straight, Origin::kSpecular, true}; }
 
 /// One of the parts that send light of this colour on, by what they send; its weight is divided by the probability.
 Scattered scatter(const Vertex& v, const Spectrum& power, const BounceSampler& sampler) {
@@ -103,7 +104,8 @@ Scattered scatter(const Vertex& v, const Spectrum& power, const BounceSampler& s
   const float choice = sampler.one(kPart) * sum;
   const std::size_t part = choice < share[0] ? 0 : (choice < share[0] + share[1] || !(share[2] > 0) ? 1 : 2);
   if (!(share[part] > 0)) return {};
-  Scattered scattered = part == 0 ? scatter_diffuse(v, sampler) : (part == 1 ? scatter_specular(v, sampler) : go_straight(v));
+  Scattered scattered =
+      part == 0 ? scatter_diffuse(v, sampler) : (part == 1 ? scatter_specular(v, sampler) : go_straight(v));
   scattered.weight *= sum / share[part];
   return scattered;
 }
@@ -174,8 +176,8 @@ class Follower {
 
 PathLosses follow_path(const World& world, std::uint64_t key, std::uint64_t index, const SeeSegment& see) {
   const BounceSampler sampler(key, index, 0);
-  const EmittedRay emitted = sample_emission(world, static_cast<double>(sampler.one(kEmitterChoice)), sampler.two(kPlace),
-                                             sampler.two(kDirection));
+  const EmittedRay emitted = sample_emission(world, static_cast<double>(sampler.one(kEmitterChoice)),
+                                             sampler.two(kPlace), sampler.two(kDirection));
   Segment segment;
   segment.ray = emitted.ray;
   segment.power = emitted.power;

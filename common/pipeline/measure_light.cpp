@@ -13,7 +13,9 @@
 namespace radfarm {
 namespace {
 
-bool bends_light(const Material& m) { return (m.metallic > 0 || m.transmission > 0 || m.clearcoat > 0) && m.roughness < .1F; }
+bool bends_light(const Material& m) {
+  return (m.metallic > 0 || m.transmission > 0 || m.clearcoat > 0) && m.roughness < .1F;
+}
 
 /// Paths from meters never meet a point or a direction; they find it by next events, which no mirror or lens passes on.
 std::vector<std::string> notes_on(const World& world, MeasureRequest::Method method) {
@@ -23,7 +25,8 @@ std::vector<std::string> notes_on(const World& world, MeasureRequest::Method met
   return {"light of points and directions by mirrors and clear glass is not in the readings; --method paths has it"};
 }
 
-Result<std::vector<Meter>> place_meters(const World& world, const MeasureRequest& request, std::optional<WorkPlane>& plane) {
+Result<std::vector<Meter>> place_meters(const World& world, const MeasureRequest& request,
+                                        std::optional<WorkPlane>& plane) {
   if (request.points) return read_meters(*request.points, world.scene.origin);
   WorkPlaneSettings settings = request.plane;
   if (settings.floor) *settings.floor -= static_cast<float>(world.scene.origin.y);
@@ -53,7 +56,8 @@ Result<MeasuredLight> measure_light(const std::filesystem::path& scene_file, con
   RADFARM_TRY_STATUS(progress.check());
   const World world(std::move(scene));
   if (world.emitters.size() == 0 && world.emitters.declared_triangles == 0) {
-    return fail(Code::kInvalidArgument, "the scene has no emitter: give it an emissive material, a light (KHR_lights_punctual), or --env");
+    return fail(Code::kInvalidArgument,
+                "the scene has no emitter: give it an emissive material, a light (KHR_lights_punctual), or --env");
   }
   MeasuredLight measured;
   std::optional<WorkPlane> plane;

@@ -26,9 +26,9 @@ class DiscCaster {
   /// Who is told of a disc, by its index.
   using Visit = void (*)(void* user, std::uint32_t disc);
 
-  /// Calls visit(user, disc) once for each disc that the ray crosses between the distances, from either side: all that it does
-  /// cross, and some that it misses by rounding, so that whoever counts tests them again in double. In an order that depends on
-  /// the discs alone. O(log n + crossings), 3 us at 7 of them among 50,000.
+  /// Calls visit(user, disc) once for each disc that the ray crosses between the distances, from either side: all that
+  /// it does cross, and some that it misses by rounding, so that whoever counts tests them again in double. In an order
+  /// that depends on the discs alone. O(log n + crossings), 3 us at 7 of them among 50,000.
   void crossed(const Ray& ray, float near, float far, Visit visit, void* user) const;
 
  private:

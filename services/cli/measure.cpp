@@ -43,14 +43,19 @@ bool is_positive(const std::optional<float>& value) { return !value || (std::isf
 
 Status check_flags(const MeasureFlags& flags) {
   const bool has_plane = flags.height || flags.spacing || flags.floor;
-  if (flags.points.empty() != has_plane) return refuse("needs --points P.csv, or --height H --spacing S of a work plane");
+  if (flags.points.empty() != has_plane)
+    return refuse("needs --points P.csv, or --height H --spacing S of a work plane");
   if (!flags.png.empty() && !has_plane) return refuse("--png shows a work plane: give --height and --spacing");
   if (!is_positive(flags.spacing)) return refuse("--spacing must be above 0 m");
-  if (flags.height && !(std::isfinite(*flags.height) && *flags.height >= 0)) return refuse("--height must be at least 0 m");
-  if (flags.method != "gather" && flags.method != "paths") return refuse("--method '" + flags.method + "' is unknown; gather or paths");
+  if (flags.height && !(std::isfinite(*flags.height) && *flags.height >= 0))
+    return refuse("--height must be at least 0 m");
+  if (flags.method != "gather" && flags.method != "paths")
+    return refuse("--method '" + flags.method + "' is unknown; gather or paths");
   const bool is_paths = flags.method == "paths";
-  if (is_paths && (flags.samples || !flags.error.empty())) return refuse("--samples and --error are of --method gather; --photons N is of paths");
-  if (!is_paths && (flags.photons || flags.radius)) return refuse("--photons and --radius are of --method paths; --error and --samples are of gather");
+  if (is_paths && (flags.samples || !flags.error.empty()))
+    return refuse("--samples and --error are of --method gather; --photons N is of paths");
+  if (!is_paths && (flags.photons || flags.radius))
+    return refuse("--photons and --radius are of --method paths; --error and --samples are of gather");
   if (flags.samples && *flags.samples < 1) return refuse("--samples must be at least 1");
   if (flags.photons && *flags.photons < 1) return refuse("--photons must be at least 1");
   if (!is_positive(flags.radius)) return refuse("--radius must be above 0 m");
@@ -99,9 +104,17 @@ Result<MeasuredLight> measure_or_end(const MeasureFlags& flags, const MeasureReq
 
 json summary_json(const MeasuredLight& light, const MeasureFlags& flags, double seconds) {
   const Summary& s = light.summary;
-  json summary = {{"method", flags.method}, {"points", s.points}, {"least_lux", s.least}, {"mean_lux", s.mean}, {"most_lux", s.most},
-                  {"uniformity", s.uniformity}, {"least_over_most", s.diversity}, {"widest_relative_half_width", s.widest},
-                  {"seed", flags.seed}, {"cpu_s", seconds}, {"notes", light.notes}};
+  json summary = {{"method", flags.method},
+                  {"points", s.points},
+                  {"least_lux", s.least},
+                  {"mean_lux", s.mean},
+                  {"most_lux", s.most},
+                  {"uniformity", s.uniformity},
+                  {"least_over_most", s.diversity},
+                  {"widest_relative_half_width", s.widest},
+                  {"seed", flags.seed},
+                  {"cpu_s", seconds},
+                  {"notes", light.notes}};
   if (light.floor) summary["floor"] = *light.floor;
   if (!light.levels.empty()) summary["contour_lux"] = light.levels;
   return summary;
@@ -111,9 +124,11 @@ void print_summary(const MeasuredLight& light, const MeasureFlags& flags, double
   const Summary& s = light.summary;
   std::printf("%s: %zu points", flags.output.c_str(), s.points);
   if (light.floor) std::printf(", floor at %.3g m", static_cast<double>(*light.floor));
-  std::printf("\n  illuminance  least %.4g lx, mean %.4g lx, most %.4g lx\n  uniformity   %.2f (least / mean), %.2f (least / most)\n"
-              "  95 %% interval at most +-%.2g %% of a reading, by %s, %.1f CPU s\n",
-              s.least, s.mean, s.most, s.uniformity, s.diversity, 100 * s.widest, flags.method.c_str(), seconds);
+  std::printf(
+      "\n  illuminance  least %.4g lx, mean %.4g lx, most %.4g lx\n  uniformity   %.2f (least / mean), %.2f (least / "
+      "most)\n"
+      "  95 %% interval at most +-%.2g %% of a reading, by %s, %.1f CPU s\n",
+      s.least, s.mean, s.most, s.uniformity, s.diversity, 100 * s.widest, flags.method.c_str(), seconds);
   if (!flags.png.empty() && !light.levels.empty()) {
     std::printf("  %s: lines at", flags.png.c_str());
     for (const double level : light.levels) std::printf(" %g", level);
@@ -147,16 +162,20 @@ Result<ExitCode> run_measure(const MeasureFlags& flags) {
 }  // namespace
 
 void add_measure(CLI::App& app, Action& action) {
-  CLI::App& verb = *app.add_subcommand("measure", "illuminance in lux at points or over a work plane, with 95 % intervals");
+  CLI::App& verb =
+      *app.add_subcommand("measure", "illuminance in lux at points or over a work plane, with 95 % intervals");
   const auto flags = std::make_shared<MeasureFlags>();  // shared: by the parser and by the action
   verb.add_option("SCENE", flags->scene, ".gltf, .glb or .obj")->required();
-  verb.add_option("-o,--output", flags->output, "LUX.csv: x,y,z,nx,ny,nz,lux,lux_low,lux_high,red,green,blue,samples")->required();
-  verb.add_option("--points", flags->points, "P.csv: a line each of x,y,z or x,y,z,nx,ny,nz in metres, as in the scene file");
+  verb.add_option("-o,--output", flags->output, "LUX.csv: x,y,z,nx,ny,nz,lux,lux_low,lux_high,red,green,blue,samples")
+      ->required();
+  verb.add_option("--points", flags->points,
+                  "P.csv: a line each of x,y,z or x,y,z,nx,ny,nz in metres, as in the scene file");
   verb.add_option("--height", flags->height, "of a work plane above the floor, m (0.85)");
   verb.add_option("--spacing", flags->spacing, "of the plane's points, m (0.25)");
   verb.add_option("--floor", flags->floor, "height of the floor in the scene file, m; default: found");
   verb.add_option("--png", flags->png, "OUT.png: the work plane in false colours with contour lines");
-  verb.add_option("--method", flags->method, "gather: unbiased paths from each point; paths: photon paths from the lights, caustics too");
+  verb.add_option("--method", flags->method,
+                  "gather: unbiased paths from each point; paths: photon paths from the lights, caustics too");
   verb.add_option("--error", flags->error, "P%: half width of the 95 % interval aimed at, of gather; default 2%");
   verb.add_option("--samples", flags->samples, "paths a point, of gather; default: by --error");
   verb.add_option("--photons", flags->photons, "light paths, of paths; default 4000000");

@@ -24,8 +24,8 @@ struct Reading {
   std::uint64_t crossings = 0;
 };
 
-std::vector<Reading> read(const World& world, std::vector<Disc> discs, std::uint64_t paths, const CrossingRules& rules = {},
-                          OriginSet origins = kAllOrigins, std::uint64_t seed = 1) {
+std::vector<Reading> read(const World& world, std::vector<Disc> discs, std::uint64_t paths,
+                          const CrossingRules& rules = {}, OriginSet origins = kAllOrigins, std::uint64_t seed = 1) {
   const Components components(world.scene);
   const DiscSet set(world, components, std::move(discs));
   std::vector<DiscSums> sums(set.discs().size());
@@ -81,7 +81,8 @@ TEST(PathsStability, H50_FlatFloorLosesNothingToRounding) {
 TEST(PathsStability, H50_TilesOfDifferentObjectsAreOneFloor) {
   SceneMaker maker;
   const auto grey = maker.material(Spectrum(0.5F));
-  for (float x = -2; x < 2; x += .25F) maker.polygon(grey, {{x, .1F, -2}, {x, .1F, 2}, {x + .25F, .1F, 2}, {x + .25F, .1F, -2}});
+  for (float x = -2; x < 2; x += .25F)
+    maker.polygon(grey, {{x, .1F, -2}, {x, .1F, 2}, {x + .25F, .1F, 2}, {x + .25F, .1F, -2}});
   maker.light(point_light({0, 1.1F, 0}, 100));
   const World world(maker.take());
   const double truth = 2 * kPiD * 100 * (1 - 1 / std::hypot(1, .3)) / (kPiD * .09);
@@ -164,7 +165,8 @@ TEST(PathsStability, H56_FlatToTheTablesEdge) {
   sun.intensity = Spectrum(100.0F);
   maker.light(sun);
   const World world(maker.take());
-  for (const float x : {-.001F, -.05F, -.1F}) expect_near(read(world, {disc_below(world, {x, 2, 0}, .1F)}, 200000)[0], 100, 1e-3);
+  for (const float x : {-.001F, -.05F, -.1F})
+    expect_near(read(world, {disc_below(world, {x, 2, 0}, .1F)}, 200000)[0], 100, 1e-3);
 }
 
 TEST(PathsStability, H57_ShadowOfABlockerCloserThanTheRadius) {
@@ -264,7 +266,8 @@ TEST(PathsStability, H61_ThinWallStandingOnTheFloor) {
   maker.polygon(grey, {{0, 0, 2}, {0, 0, -2}, {0, 2, -2}, {0, 2, 2}});
   maker.light(point_light({1, 1, 0}, 100));
   const World world(maker.take());
-  const auto readings = read(world, {disc_below(world, {-.02F, 1, 0}, .2F), disc_below(world, {.02F, 1, 0}, .2F)}, 500000);
+  const auto readings =
+      read(world, {disc_below(world, {-.02F, 1, 0}, .2F), disc_below(world, {.02F, 1, 0}, .2F)}, 500000);
   EXPECT_LT(readings[0].irradiance, 1e-3 * readings[1].irradiance);  // the dark side of the wall
   const double d2 = 1 + .98 * .98;
   expect_near(readings[1], 100 / (d2 * std::sqrt(d2)), .06);  // the lit side loses nothing to the half behind the wall

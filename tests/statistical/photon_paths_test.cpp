@@ -59,8 +59,8 @@ TEST(PhotonPaths, VarianceIsThatOfIndependentPaths) {
   }
 }
 
-/// Runs of which the 95 % interval held the truth; of 1000, fewer than 918 by chance once in 10^5 if 95 % do, and at least 93 % in truth
-/// would be missed by this test with a chance of about 8 %.
+/// Runs of which the 95 % interval held the truth; of 1000, fewer than 918 by chance once in 10^5 if 95 % do, and at
+/// least 93 % in truth would be missed by this test with a chance of about 8 %.
 constexpr int kRuns = 1000, kLeast = 918;
 
 /// What a meter inside reads of the even light from the wall, with the lamp behind it: rho H of the polyhedron.

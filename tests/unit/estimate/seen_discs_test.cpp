@@ -52,7 +52,8 @@ TEST(SeenDiscs, RadiiFollowTheLight) {
   const SeenDiscs many = see_discs(world, components, film_above(.05F), {4, 3200000, 0, 100});
   // Sixteen times the paths need a quarter of the radius for as many crossings, but for the pilots' noise.
   double ratio = 0;
-  for (std::size_t i = 0; i < 81; ++i) ratio += static_cast<double>(many.discs[i].shape.radius / few.discs[i].shape.radius) / 81;
+  for (std::size_t i = 0; i < 81; ++i)
+    ratio += static_cast<double>(many.discs[i].shape.radius / few.discs[i].shape.radius) / 81;
   EXPECT_NEAR(ratio, .25, .08);
 }
 

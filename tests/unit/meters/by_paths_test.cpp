@@ -44,9 +44,11 @@ TEST(MeasureByPaths, WhereNoPathCameTheIntervalStillHasAWidth) {
   PathMeterSettings settings;
   settings.paths = 1600;
   settings.radius = .01F;
-  const Reading reading = measure_by_paths(world, std::vector<Meter>{{{-1.9F, .05F, -1.9F}, {0, 1, 0}}}, settings).readings[0];
+  const Reading reading =
+      measure_by_paths(world, std::vector<Meter>{{{-1.9F, .05F, -1.9F}, {0, 1, 0}}}, settings).readings[0];
   ASSERT_EQ(reading.samples, 0U);
-  EXPECT_NEAR(reading.half_width, 3 * world.emitters.total_flux / (1600 * 3.14159265 * 1e-4), 1e-3 * reading.half_width);
+  EXPECT_NEAR(reading.half_width, 3 * world.emitters.total_flux / (1600 * 3.14159265 * 1e-4),
+              1e-3 * reading.half_width);
 }
 
 TEST(MeasureByPaths, RadiusIsTheOneGiven) {

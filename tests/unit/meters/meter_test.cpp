@@ -30,7 +30,8 @@ TEST(Meter, InTheDarkNothingIsUniform) {
 
 TEST(Meter, HalfWidthIsStudents) {
   // Mean 2, standard deviation 1, of 4: t(.975, 3) = 3.182446.
-  EXPECT_NEAR(half_width_of(std::vector<double>{1, 3, 1.2928932188, 2.7071067812}), 3.182446 * std::sqrt((1 + 1 + .5 + .5) / 3 / 4), 1e-5);
+  EXPECT_NEAR(half_width_of(std::vector<double>{1, 3, 1.2928932188, 2.7071067812}),
+              3.182446 * std::sqrt((1 + 1 + .5 + .5) / 3 / 4), 1e-5);
 }
 
 }  // namespace

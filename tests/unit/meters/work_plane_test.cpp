@@ -39,8 +39,8 @@ TEST(WorkPlane, LeavesOutSolidsAndCupboardsButNotTables) {
   SceneMaker maker = room_on_slab(grey);
   const test::Shape pillar = test::box({1, 0, 1}, {1.5F, 2.5F, 1.5F});
   maker.mesh(grey, pillar.positions, pillar.triangles);
-  maker.room(std::vector<std::uint32_t>(6, grey), {3, .01F, 2}, {3.5F, 2, 3});           // hollow: .5 m^2
-  maker.polygon(grey, {{2, .7F, 0}, {2, .7F, 1}, {3, .7F, 1}, {3, .7F, 0}});             // a table
+  maker.room(std::vector<std::uint32_t>(6, grey), {3, .01F, 2}, {3.5F, 2, 3});  // hollow: .5 m^2
+  maker.polygon(grey, {{2, .7F, 0}, {2, .7F, 1}, {3, .7F, 1}, {3, .7F, 0}});    // a table
   const World world(maker.take());
   const auto plane = make_work_plane(world, {.85F, .5F, {}});
   ASSERT_TRUE(plane) << plane.error().message;

@@ -52,7 +52,7 @@ TEST(Crossing, AnOriginReachesItsSideOfThePlaneOnly) {
   Segment wall = down(.5F);
   wall.plane = {1, 0, 0};  // the wall x = .5 sends towards x > .5: the centre is behind it
   EXPECT_EQ(air.at(wall).whole, 0);
-  wall = down(-.5F);       // the wall x = -.5 reaches all but a segment at half the radius
+  wall = down(-.5F);  // the wall x = -.5 reaches all but a segment at half the radius
   wall.ray.direction = normalize(Vec3(.1F, -1, 0));
   wall.plane = {1, 0, 0};
   EXPECT_NEAR(air.at(wall).whole, .804499 * std::numbers::pi, 1e-5);
