@@ -5,19 +5,14 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "paths/radius.h"
 
 namespace radfarm {
 namespace {
 
-constexpr std::uint64_t kPilotKey = 0x70696c6f74;  // "pilot"
-constexpr std::uint64_t kPilotShare = 64;          // of the paths: one in so many more decides radii
-constexpr std::uint64_t kPilotBatches = 8;
-constexpr float kMostShare = 1.0F / 50;  // of the scene's radius
-constexpr float kOneSurface = 0.95F;     // cosine between normals of what shares a disc
-constexpr float kFlat = 0.1F;            // height over the tangent plane, over the distance
-constexpr float kWide = 4;               // footprints that one disc stands for
+constexpr float kOneSurface = 0.95F;  // cosine between normals of what shares a disc
+constexpr float kFlat = 0.1F;         // height over the tangent plane, over the distance
+constexpr float kWide = 4;            // footprints that one disc stands for
 
 /// Nothing shines on anything.
 class Darkness : public DiffuseLight {
@@ -109,35 +104,6 @@ SeenDiscs see_all(const World& world, const Components& components, const Film& 
   return all;
 }
 
-/// What a pilot of so many paths brought each disc.
-std::vector<DiscSums> run_pilot(const World& world, const DiscSet& set, OriginSet origins, std::uint64_t seed,
-                                std::uint64_t paths) {
-  std::vector<std::vector<DiscSums>> parts(kPilotBatches, std::vector<DiscSums>(set.discs().size()));
-  parallel_for(kPilotBatches, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      add_batch(world, set, origins, {combine(seed, kPilotKey), b, paths / kPilotBatches}, parts[b]);
-    }
-  });
-  for (std::size_t b = 1; b < kPilotBatches; ++b) {
-    for (std::size_t i = 0; i < parts[b].size(); ++i) parts[0][i] += parts[b][i];
-  }
-  return std::move(parts[0]);
-}
-
-void choose_radii(const World& world, const Components& components, std::uint64_t seed,
-                  const SeenDiscSettings& settings, SeenDiscs& seen) {
-  const float most = kMostShare * world.radius;
-  const std::uint64_t paths = std::max(kPilotBatches, settings.photons / kPilotShare / kPilotBatches * kPilotBatches);
-  for (Disc& disc : seen.discs) disc.shape.radius = most;
-  const DiscSet set(world, components, seen.discs);
-  const std::vector<DiscSums> pilot = run_pilot(world, set, settings.origins, seed, paths);
-  for (std::size_t i = 0; i < seen.discs.size(); ++i) {
-    const RadiusRule rule{static_cast<double>(settings.crossings), seen.footprints[i], most};
-    seen.discs[i].shape.radius = choose_radius(set.discs()[i], pilot[i], static_cast<double>(paths),
-                                               static_cast<double>(settings.photons), rule);
-  }
-}
-
 }  // namespace
 
 SeenDiscs see_discs(const World& world, const Components& components, const Film& film,
@@ -146,7 +112,10 @@ SeenDiscs see_discs(const World& world, const Components& components, const Film
   if (settings.radius > 0) {
     for (Disc& disc : seen.discs) disc.shape.radius = settings.radius;
   } else if (world.emitters.size() > 0) {
-    choose_radii(world, components, film.seed, settings, seen);
+    const std::vector<float> radii =
+        radii_by_pilot(world, components, seen.discs, settings.origins, {film.seed, 0, settings.photons},
+                       static_cast<double>(settings.crossings), seen.footprints, kMostRadius * world.radius);
+    for (std::size_t i = 0; i < radii.size(); ++i) seen.discs[i].shape.radius = radii[i];
   }
   return seen;
 }

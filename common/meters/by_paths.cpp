@@ -6,22 +6,18 @@
 #include <numbers>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "paths/density.h"
 #include "paths/radius.h"
 
 namespace radfarm {
 namespace {
 
-constexpr std::uint64_t kPilotKey = 0x70696c6f74;  // "pilot"
-constexpr std::uint64_t kPilotShare = 64;          // of the paths: one in so many more decides radii
-constexpr float kMostShare = 1.0F / 50;            // of the scene's radius
-
 std::vector<Disc> discs_at(std::span<const Meter> meters, std::span<const float> radii) {
   std::vector<Disc> discs;
   discs.reserve(meters.size());
-  for (std::size_t i = 0; i < meters.size(); ++i)
+  for (std::size_t i = 0; i < meters.size(); ++i) {
     discs.push_back(disc_in_air(meters[i].point, meters[i].normal, radii[i]));
+  }
   return discs;
 }
 
@@ -36,26 +32,13 @@ Replicates run(const World& world, const DiscSet& set, const PathMeterSettings& 
   return sums;
 }
 
-DiscSums total(const Replicates& sums, std::size_t disc) {
-  DiscSums all;
-  for (const auto& one : sums) all += one[disc];
-  return all;
-}
-
-/// Each as wide as the pilot's density asks for.
-std::vector<float> radii_by_pilot(const World& world, const Components& components, std::span<const Meter> meters,
-                                  const PathMeterSettings& settings, const Progress& progress) {
-  const float most = settings.most > 0 ? settings.most : kMostShare * world.radius;
-  const DiscSet set(world, components, discs_at(meters, std::vector<float>(meters.size(), most)));
-  const std::uint64_t each = std::max<std::uint64_t>(1, settings.paths / kPilotShare / kReplicates);
-  const Replicates sums = run(world, set, settings, combine(settings.seed, kPilotKey), each, progress);
-  const RadiusRule rule{settings.crossings, most / 16, most};
-  std::vector<float> radii;
-  for (std::size_t i = 0; i < meters.size(); ++i) {
-    radii.push_back(choose_radius(set.discs()[i], total(sums, i), static_cast<double>(each * kReplicates),
-                                  static_cast<double>(settings.paths), rule));
-  }
-  return radii;
+/// Each as wide as the density of paths asks for.
+std::vector<float> choose_radii(const World& world, const Components& components, std::span<const Meter> meters,
+                                const PathMeterSettings& settings) {
+  const float most = settings.most > 0 ? settings.most : kMostRadius * world.radius;
+  const std::vector<float> least(meters.size(), most / 16), widest(meters.size(), most);
+  return radii_by_pilot(world, components, discs_at(meters, widest), settings.origins,
+                        {settings.seed, 0, settings.paths}, settings.crossings, least, most);
 }
 
 /// Of no crossing in n paths, each of `flux` lm, fewer than three were expected, at 95 %.
@@ -90,7 +73,7 @@ PathReadings measure_by_paths(const World& world, std::span<const Meter> meters,
   const Components components(world.scene);
   PathReadings result;
   result.radii = settings.radius > 0 ? std::vector<float>(meters.size(), settings.radius)
-                                     : radii_by_pilot(world, components, meters, settings, progress);
+                                     : choose_radii(world, components, meters, settings);
   const DiscSet set(world, components, discs_at(meters, result.radii));
   const std::uint64_t each = std::max<std::uint64_t>(1, settings.paths / kReplicates);
   const Replicates sums = run(world, set, settings, settings.seed, each, progress);

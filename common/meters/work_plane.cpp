@@ -58,8 +58,7 @@ Result<Floor> find_floor(const World& world, const std::optional<float>& given) 
       return Floor{given.value_or(height), level.box};
     }
   }
-  return fail(Code::kInvalidArgument, given ? "--floor: no surface there faces up"
-                                            : "no floor: no surface faces up; name its height by --floor");
+  return fail(Code::kInvalidArgument, given ? "--floor: no surface there faces up" : "no floor: no surface faces up");
 }
 
 struct Place {
@@ -132,8 +131,9 @@ Result<WorkPlane> make_work_plane(const World& world, const WorkPlaneSettings& s
   const double spacing = static_cast<double>(settings.spacing);
   const double columns = std::max(1.0, std::floor(wide / spacing + 1e-3)),
                rows = std::max(1.0, std::floor(deep / spacing + 1e-3));
-  if (columns * rows > kMostCells)
+  if (columns * rows > kMostCells) {
     return fail(Code::kInvalidArgument, "--spacing: more than 10000000 points; a wider one");
+  }
   WorkPlane plane{floor.height, {}, settings.spacing, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows),
                   {},           {}};
   // What the spacing leaves over is shared by both sides.
@@ -151,8 +151,9 @@ Result<WorkPlane> make_work_plane(const World& world, const WorkPlaneSettings& s
     plane.meter_of[i] = static_cast<std::uint32_t>(plane.meters.size());
     plane.meters.push_back({centres[i], {0, 1, 0}});
   }
-  if (plane.meters.empty())
+  if (plane.meters.empty()) {
     return fail(Code::kInvalidArgument, "no point of the work plane lies over the floor, in the open");
+  }
   return plane;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "base/random.h"
 #include "math/sampling.h"
@@ -49,14 +48,13 @@ float adjoint(const SurfacePoint& point, const Vec3& in, const Vec3& out) {
 
 /// A surface as one path meets it: `in` points back along the path.
 struct Vertex {
-  const World& world;
   SurfacePoint point;
   Vec3 in;
   Spectrum straight{};  // what a pane passes on; black elsewhere
   Bsdf bsdf;            // the last: making it sets the others
 
   Vertex(const World& w, const Hit& hit, const Vec3& back)
-      : world(w), point(w.surfaces.at(hit)), in(back), bsdf(scattering(w, hit)) {}
+      : point(w.surfaces.at(hit)), in(back), bsdf(scattering(w, hit)) {}
 
  private:
   Bsdf scattering(const World& w, const Hit& hit) {

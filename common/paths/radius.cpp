@@ -2,8 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/random.h"
 
 namespace radfarm {
+namespace {
+
+constexpr std::uint64_t kPilotKey = 0x70696c6f74;  // "pilot"
+constexpr std::uint64_t kPilotShare = 64;
+constexpr std::uint64_t kPilotBatches = 8;
+
+/// What batches of so many paths each brought each disc.
+std::vector<DiscSums> run_pilot(const World& world, const DiscSet& set, OriginSet origins, std::uint64_t seed,
+                                std::uint64_t each) {
+  std::vector<std::vector<DiscSums>> parts(kPilotBatches, std::vector<DiscSums>(set.discs().size()));
+  parallel_for(kPilotBatches, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) add_batch(world, set, origins, {seed, b, each}, parts[b]);
+  });
+  for (std::size_t b = 1; b < kPilotBatches; ++b) {
+    for (std::size_t i = 0; i < parts[b].size(); ++i) parts[0][i] += parts[b][i];
+  }
+  return std::move(parts[0]);
+}
+
+}  // namespace
 
 float choose_radius(const Disc& disc, const DiscSums& pilot, double pilot_paths, double paths, const RadiusRule& rule) {
   if (pilot.crossings == 0) return rule.most;
@@ -12,6 +36,19 @@ float choose_radius(const Disc& disc, const DiscSums& pilot, double pilot_paths,
   return std::clamp(static_cast<float>(radius), std::min(rule.least, rule.most), rule.most);
 }
 
-double shrinking(std::uint64_t batch) { return std::pow(static_cast<double>(batch) + 1, -1.0 / 6); }
+std::vector<float> radii_by_pilot(const World& world, const Components& components, std::vector<Disc> discs,
+                                  OriginSet origins, const PathBatch& paths, double crossings,
+                                  std::span<const float> least, float most) {
+  for (Disc& disc : discs) disc.shape.radius = most;
+  const DiscSet set(world, components, std::move(discs));
+  const std::uint64_t each = std::max<std::uint64_t>(1, paths.paths / kPilotShare / kPilotBatches);
+  const std::vector<DiscSums> pilot = run_pilot(world, set, origins, combine(paths.seed, kPilotKey), each);
+  std::vector<float> radii;
+  for (std::size_t i = 0; i < pilot.size(); ++i) {
+    radii.push_back(choose_radius(set.discs()[i], pilot[i], static_cast<double>(each * kPilotBatches),
+                                  static_cast<double>(paths.paths), {crossings, least[i], most}));
+  }
+  return radii;
+}
 
 }  // namespace radfarm

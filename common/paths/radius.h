@@ -18,8 +18,13 @@ struct RadiusRule {
 /// `pilot_paths`; `most` where it counted none. docs/pipeline.md (paths.6)
 float choose_radius(const Disc& disc, const DiscSums& pilot, double pilot_paths, double paths, const RadiusRule& rule);
 
-/// How much narrower discs are in batch `batch` than in batch 0: (batch + 1)^(-1/6), so that the error of the mean of
-/// all batches falls as their number to -1/3, bias and noise alike. (paths.6)
-double shrinking(std::uint64_t batch);
+/// The radii of discs, one each, by a pilot of one path in 64 more: between `least` (one a disc) and `most`, at which
+/// the pilot runs. The same for any number of threads. Requires: emitters. Uses all threads.
+std::vector<float> radii_by_pilot(const World& world, const Components& components, std::vector<Disc> discs,
+                                  OriginSet origins, const PathBatch& paths, double crossings,
+                                  std::span<const float> least, float most);
+
+/// How wide discs are where nobody says: the scene's radius times this at most.
+inline constexpr float kMostRadius = 1.0F / 50;
 
 }  // namespace radfarm

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "image/visibility_threshold.h"
+#include "paths/photon_path.h"
 #include "scene/camera.h"
 
 namespace radfarm {
@@ -130,7 +131,7 @@ void resolve_photons(const RenderRequest& request, std::uint64_t photons, Settin
   if (settings.integrator != Settings::Integrator::kPaths) return;
   settings.photons = request.photons ? static_cast<std::uint64_t>(*request.photons) : photons;
   settings.photon_batches = static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.photons, kPhotonBatches));
-  settings.photon_origins = 7;  // all light
+  settings.photon_origins = kAllOrigins;
   settings.photon_radius = request.radius.value_or(0);
   settings.photon_crossings = kCrossings * std::pow(static_cast<float>(settings.photons) / 4e6F, 2.0F / 3);
 }

@@ -16,10 +16,5 @@ TEST(Radius, BringsAsManyCrossingsAsAreAskedFor) {
   EXPECT_EQ(choose_radius(disc, DiscSums(), 1000, 10000, {250, .01F, .3F}), .3F);
 }
 
-TEST(Radius, ShrinksSoThatBiasAndNoiseBothVanish) {
-  EXPECT_EQ(shrinking(0), 1);
-  EXPECT_NEAR(shrinking(63), .5, 1e-12);
-}
-
 }  // namespace
 }  // namespace radfarm
