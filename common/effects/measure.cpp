@@ -121,6 +121,8 @@ Measurements measure(const World& world, const ViewSize& view, std::uint64_t see
   measure_materials(world.scene, m);
   progress.report("effects: pilot");
   m.pilot = run_pilot(world, view.camera, view.width, view.height, seed);
+  const bool is_specular = m.metals + m.glossy + m.mirrors + m.coats + m.sheens + m.volumes + m.panes + m.rough_transmitters > 0;
+  if (is_specular && world.emitters.size() > 0) m.specular = measure_specular_shares(world, seed);
   m.detail_elevation = detail_elevation(world, view.camera, view.width, view.height, kMaxElevation);
   progress.report("effects: trapped light");
   m.trapped = find_trapped_light(world, seed);

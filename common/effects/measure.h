@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "effects/pilot.h"
+#include "effects/specular_share.h"
 #include "effects/trapped_light.h"
 #include "scene/world.h"
 
@@ -36,6 +37,7 @@ struct Measurements {
   float normal_map_angle = 0;              // largest, degrees
   std::size_t reflectance_textures = 0, emission_textures = 0, normal_maps = 0;
   double detail_elevation = 1;             // of the visible threshold, by what the camera sees: mean, 1 to kMaxElevation
+  SpecularShares specular;                 // of the light that diffuse surfaces reflect
   Pilot pilot;
   std::optional<TrappedLight> trapped;     // light that can never be lost
 };

@@ -19,6 +19,8 @@ constexpr double kLeastAngle = 1;          // degrees
 constexpr double kLeastHole = 1.0 / 512;   // of coverage
 constexpr double kLeastElevation = 1.05;
 constexpr double kLeastDeviation = 1.0 / 512;
+// What rough lobes send diffuse surfaces is spread too evenly instead, not lost.
+constexpr double kMostFolded = 0.05;
 
 /// An effect that is on where `value` exceeds `least`.
 EffectDecision decide(std::string id, std::string test, double value, double least, double bound, const char* kind,
@@ -90,24 +92,26 @@ void add_matter(const Measurements& m, std::vector<EffectDecision>& rows) {
                         "heuristic", kMean, "the interpolated normal"));
 }
 
+/// Light that diffuse surfaces have from specular ones, which photon paths carry, or radiosity as if those were diffuse.
+void add_specular_light(const Measurements& m, Transport transport, std::vector<EffectDecision>& rows) {
+  const auto row = [&](const char* id, const char* test, const SpecularShare& share, double least, const char* note) {
+    EffectDecision decision = decide(id, test, share.share, least, times_share(likely_radiance(m), share.at_most), "heuristic", kMean, note);
+    if (transport == Transport::kPathTrace && share.at_most > 0) decision = always(id, test, share.share, "by paths");
+    rows.push_back(std::move(decision));
+  };
+  row("caustics", "share of the light that diffuse surfaces reflect which sharp specular lobes sent them > 0.005", m.specular.sharp,
+      kJustInvisible, "as if those were diffuse; none passes solid glass");
+  row("glossy_interreflection", "the same of rough lobes > 0.05", m.specular.rough, kMostFolded,
+      "folded into diffuse; seen from the camera it is followed");
+}
+
 void add_transport(const Measurements& m, Transport transport, std::vector<EffectDecision>& rows) {
   const double passed_on = m.emitted_flux > 0 ? static_cast<double>(m.max_reflectance) * m.pilot.meets_at_most() : 0;
   const double gain = passed_on < 1 ? passed_on / (1 - passed_on) : kUnbounded;
   const double brightest = std::max(m.pilot.direct_radiance, m.pilot.met_radiance);
   rows.push_back(decide("interreflection", "rho phi / (1 - rho phi), phi: share of diffuse rays that meet what reflects, > 0.005",
                         gain, kJustInvisible, gain * brightest, m.pilot.met == 0 ? "95 %" : "heuristic", kMean, "direct light only; nothing is solved"));
-  const bool is_gather = transport != Transport::kPathTrace;
-  const auto specular = static_cast<double>(m.metals + m.glossy + m.mirrors + m.coats + m.sheens + m.volumes + m.rough_transmitters);
-  const double per_receiver = static_cast<double>(m.max_reflectance) * std::max(static_cast<double>(m.max_specular), static_cast<double>(m.max_transmission));
-  EffectDecision caustics = skip("caustics", "materials that are specular, and lit > 0", specular, times_share(max_radiance(m), per_receiver), "rigorous",
-                                 "light that comes to diffuse surfaces by specular ones is as if those were diffuse; none passes solid glass");
-  EffectDecision gloss = skip("glossy_interreflection", "materials that are specular > 0", specular,
-                              times_share(max_radiance(m), static_cast<double>(m.max_specular)), "rigorous",
-                              "folded into diffuse in the radiosity solution; seen from the camera it is followed");
-  for (EffectDecision* row : {&caustics, &gloss}) {
-    if (!is_gather && specular > 0) *row = always(row->id, row->test, row->value, "by paths, without points and directions through glass and mirrors");
-    rows.push_back(*row);
-  }
+  add_specular_light(m, transport, rows);
   rows.push_back(always("bounces", "interreflection is on", gain, "no bound on depth: what survives is decided by chance, unbiased"));
 }
 
@@ -156,7 +160,8 @@ void force_off(EffectDecision& row, const Measurements& m) {
   row.note = "forced off by --effects" + (row.note.empty() ? "" : ": " + row.note);
   if (row.value == 0 || effect_of(row.id) == Effect::kMasking) return;
   const double reflected = static_cast<double>(m.max_reflectance);
-  if (row.id == "interreflection") {
+  const bool is_folded = (bit_of(effect_of(row.id)) & kFoldable) != 0;
+  if (row.id == "interreflection" || is_folded) {
     row.bound = row.value * likely_radiance(m);
     row.bound_kind = "heuristic";
   } else {
@@ -165,7 +170,13 @@ void force_off(EffectDecision& row, const Measurements& m) {
   }
 }
 
-Status force(EffectsPlan& plan, const Measurements& m, std::string_view item) {
+/// Whether an effect can be forced on or off: of what paths carry nothing is folded.
+bool has_switch(std::string_view id, Transport transport) {
+  const Effect effect = effect_of(id);
+  return effect != Effect::kCount && !(transport == Transport::kPathTrace && (bit_of(effect) & kFoldable) != 0);
+}
+
+Status force(EffectsPlan& plan, const Measurements& m, Transport transport, std::string_view item) {
   const bool on = item.starts_with('+');
   if (!on && !item.starts_with('-')) {
     return fail(Code::kInvalidArgument, "--effects: '" + std::string(item) + "' must start with + or -");
@@ -177,11 +188,11 @@ Status force(EffectsPlan& plan, const Measurements& m, std::string_view item) {
     for (const EffectDecision& e : plan.effects) known += (known.empty() ? "" : ", ") + e.id;
     return fail(Code::kInvalidArgument, "--effects: no effect '" + std::string(id) + "'; there are " + known);
   }
-  const bool has_switch = effect_of(id) != Effect::kCount;
-  if (on && !row->active && !has_switch) {
+  const bool is_switch = has_switch(id, transport);
+  if (on && !row->active && !is_switch) {
     return fail(Code::kInvalidArgument, "--effects: radfarm cannot simulate '" + std::string(id) + "': " + row->note);
   }
-  if (!on && row->active && !has_switch) {
+  if (!on && row->active && !is_switch) {
     return fail(Code::kInvalidArgument, "--effects: '" + std::string(id) + "' cannot be switched off: " + row->note);
   }
   if (!on) {
@@ -217,7 +228,8 @@ EffectSet EffectsPlan::off() const {
 EffectSet EffectsPlan::exactly_off() const {
   EffectSet set = off();
   for (const EffectDecision& e : effects) {
-    if (e.bound > 0 && effect_of(e.id) != Effect::kCount) set &= ~bit_of(effect_of(e.id));
+    // What is folded is so in radiosity alone: the path tracer knows no switch for it.
+    if (e.bound > 0 && effect_of(e.id) != Effect::kCount) set &= ~bit_of(effect_of(e.id)) | kFoldable;
   }
   return set;
 }
@@ -235,7 +247,7 @@ Result<EffectsPlan> plan_effects(const Measurements& m, Transport transport, std
   add_masking(m, transport, plan.effects);
   while (!forced.empty()) {
     const std::size_t comma = forced.find(',');
-    RADFARM_TRY_STATUS(force(plan, m, forced.substr(0, comma)));
+    RADFARM_TRY_STATUS(force(plan, m, transport, forced.substr(0, comma)));
     forced = comma == std::string_view::npos ? "" : forced.substr(comma + 1);
   }
   return plan;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "effects/specular_share.h"
 #include "effects/texture_range.h"
 #include "scene/photometry.h"
 #include "scene/texture_uses.h"
@@ -14,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, static_cast<std::size_t>(Effect::kCount)> kIds = {
     "area_lights",    "punctual_lights",      "ies",               "environment", "interreflection", "gloss",
     "clearcoat",      "sheen",                "anisotropy",        "transmission", "panes",          "alpha_cutouts",
-    "reflectance_textures", "emission_textures", "normal_maps",    "depth_of_field", "masking"};
+    "reflectance_textures", "emission_textures", "normal_maps",    "depth_of_field", "caustics", "glossy_interreflection", "masking"};
 
 /// A base texture whose alpha still cuts holes keeps it; its colour becomes even.
 void even_out(Scene& scene, Material& m) {
@@ -85,6 +86,9 @@ Effect effect_of(std::string_view id) {
 std::string_view id_of(Effect effect) { return kIds[static_cast<std::size_t>(effect)]; }
 
 Scene specialise(Scene scene, EffectSet off) {
+  for (Material& material : scene.materials) {
+    material.folds_specular = contains(off, is_sharp(scene, material) ? Effect::kCaustics : Effect::kGlossyInterreflection);
+  }
   if (!changes_scene(off)) return scene;
   for (Material& material : scene.materials) {
     strip_layers(material, off);

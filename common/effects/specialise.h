@@ -26,6 +26,8 @@ enum class Effect : std::uint32_t {
   kEmissionTextures,
   kNormalMaps,
   kDepthOfField,
+  kCaustics,               // off: what sharp lobes send to diffuse surfaces is as if they were diffuse ...
+  kGlossyInterreflection,  // ... and what all other specular ones do
   kMasking,  // in no set: it steers thresholds, and changes nothing that is true of an image
   kCount
 };
@@ -37,11 +39,15 @@ constexpr bool contains(EffectSet set, Effect effect) { return (set & bit_of(eff
 Effect effect_of(std::string_view id);
 std::string_view id_of(Effect effect);
 
-/// Whether specialise() has anything to do: interreflection and depth of field are no part of the scene.
+inline constexpr EffectSet kFoldable = bit_of(Effect::kCaustics) | bit_of(Effect::kGlossyInterreflection);
+
+/// Whether leaving effects out takes anything out of the scene: interreflection and depth of field are no part of it, and of what
+/// is folded only radiosity knows.
 constexpr bool changes_scene(EffectSet off) {
-  return (off & ~(bit_of(Effect::kInterreflection) | bit_of(Effect::kDepthOfField))) != 0;
+  return (off & ~(bit_of(Effect::kInterreflection) | bit_of(Effect::kDepthOfField) | kFoldable)) != 0;
 }
-/// The scene without what calls for the effects in `off`. Textures that nothing uses any more are emptied.
+/// The scene without what calls for the effects in `off`; Material::folds_specular says of which materials gloss is folded into
+/// diffuse. Textures that nothing uses any more are emptied.
 Scene specialise(Scene scene, EffectSet off);
 
 }  // namespace radfarm

@@ -78,8 +78,9 @@ Status check_effects(std::string_view effects) {
 }
 
 Status check_photons(const RenderRequest& request) {
-  if ((request.photons || request.radius) && request.integrator != Integrator::kPaths) {
-    return invalid("--photons and --radius are of photon paths: they need --integrator paths");
+  const bool has_paths = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity;
+  if ((request.photons || request.radius) && !has_paths) {
+    return invalid("--photons and --radius are of photon paths: they need --integrator auto, gather, full-gather or paths");
   }
   if (request.photons && !(*request.photons >= 1 && *request.photons <= kMaxPhotons)) {
     return invalid("--photons is " + std::to_string(*request.photons) + ", must be between 1 and " +

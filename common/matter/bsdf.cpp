@@ -286,7 +286,8 @@ namespace {
 /// The layers hold all but what the matter's base does.
 Spectrum reflectance_under(const Layers& layers, const Matter& m, float cosine) {
   const Spectrum diffuse = m.base * ((1 - m.metallic) * (1 - m.transmission));
-  const Spectrum all = layers.reflected(cosine) + diffuse * layers.entering(cosine);
+  const Spectrum specular = m.folds_specular ? layers.reflected(cosine) : Spectrum();
+  const Spectrum all = specular + diffuse * layers.entering(cosine);
   return {std::min(all.r, 1.0F), std::min(all.g, 1.0F), std::min(all.b, 1.0F)};
 }
 

@@ -112,9 +112,10 @@ class Bsdf {
 /// What a pane passes straight on of light at a cosine to its normal, by colour (matter.3). Black of other matter.
 Spectrum pane_passage(const Matter& matter, float cosine);
 
-/// What matter reflects of light from one direction, all lobes of the viewer's side together; not what it transmits.
+/// What matter reflects of light from one direction: all lobes of the viewer's side together where gloss is folded into
+/// diffuse (Matter::folds_specular), else the diffuse one alone; not what it transmits.
 Spectrum reflectance(const Matter& matter, float cosine);
-/// The same of light from everywhere evenly: reflectance as radiosity uses it, which folds gloss into diffuse.
+/// The same of light from everywhere evenly: reflectance as radiosity uses it.
 Spectrum mean_reflectance(const Matter& matter);
 
 }  // namespace radfarm

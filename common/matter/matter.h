@@ -21,6 +21,7 @@ struct Matter {
   float sheen_roughness = 0;
   float anisotropy = 0;             // rougher across the tangent
   float anisotropy_rotation = 0;    // radians, of the tangent about the normal
+  bool folds_specular = true;       // reflectance() counts what specular lobes send as diffuse; not: it is carried apart
 
   bool is_lambertian() const {
     return metallic == 0 && specular == 0 && transmission == 0 && clearcoat == 0 && is_black(sheen);

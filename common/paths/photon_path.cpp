@@ -1,12 +1,11 @@
 #include "paths/photon_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/random.h"
-#include "math/sampling.h"
 #include "math/sobol.h"
+#include "paths/light_scattering.h"
 #include "scene/emission_sampling.h"
 
 namespace radfarm {
@@ -14,9 +13,6 @@ namespace {
 
 // 1 would let a path go on without end where nothing absorbs.
 constexpr float kMaxSurvival = 0.9999F;
-// What is a surface's least probable part to be chosen, as a share: an albedo is a mean, and may be dark towards one
-// side.
-constexpr float kLeastChoice = 0.05F;
 
 /// The random numbers of one bounce of one path.
 struct BounceSampler {
@@ -30,83 +26,6 @@ struct BounceSampler {
   std::uint64_t bits(std::uint64_t use) const { return combine(key, use, index); }
 };
 enum Use : std::uint64_t { kEmitterChoice = 1, kPlace, kDirection, kCoverage, kPart, kLobe, kWay, kSurvival };
-
-/// What a surface sends on: a direction, and of each unit of power that arrives, how much of it.
-struct Scattered {
-  Ray ray;
-  Spectrum weight;
-  Origin origin = Origin::kDiffuse;
-  bool is_straight = false;  // through a pane
-};
-
-/// What bends light about shading normals conserves radiance; of light itself it must conserve power. [Veach 1997, 5.3]
-float adjoint(const SurfacePoint& point, const Vec3& in, const Vec3& out) {
-  const float up = std::fabs(dot(point.shading_normal, in) * dot(point.geometric_normal, out));
-  const float down = std::fabs(dot(point.geometric_normal, in) * dot(point.shading_normal, out));
-  return down > 0 ? up / down : 0;
-}
-
-/// A surface as one path meets it: `in` points back along the path.
-struct Vertex {
-  SurfacePoint point;
-  Vec3 in;
-  Spectrum straight{};  // what a pane passes on; black elsewhere
-  Bsdf bsdf;            // the last: making it sets the others
-
-  Vertex(const World& w, const Hit& hit, const Vec3& back)
-      : point(w.surfaces.at(hit)), in(back), bsdf(scattering(w, hit)) {}
-
- private:
-  Bsdf scattering(const World& w, const Hit& hit) {
-    face(point, in);
-    Bsdf made = bsdf_at(w.surfaces, point, in);
-    if (w.surfaces.is_pane(w.scene.instances[hit.instance].mesh)) {
-      straight = pane_passage(w.surfaces.matter(point), std::fabs(dot(point.geometric_normal, in)));
-    }
-    return made;
-  }
-};
-
-Scattered scatter_diffuse(const Vertex& v, const BounceSampler& sampler) {
-  const Vec3 local = sample_cosine_hemisphere(sampler.two(kWay));
-  const Vec3 out = normalize(Frame(v.point.geometric_normal).to_world(local));
-  // Evenly by the geometric cosine: what is left of adjoint() is the arriving side's share.
-  const float below = dot(v.point.geometric_normal, v.in);
-  const float bend = below > 0 ? std::max(0.0F, dot(v.point.shading_normal, v.in)) / below : 0;
-  const float shape = dot(v.point.shading_normal, out) > 0 ? v.bsdf.diffuse_shape(out) : 0;
-  return {{leave(v.point), out}, v.bsdf.diffuse_reflectance() * (bend * shape), Origin::kDiffuse};
-}
-
-Scattered scatter_specular(const Vertex& v, const BounceSampler& sampler) {
-  const Bsdf::Sample sample = v.bsdf.sample_specular(sampler.one(kLobe), sampler.two(kWay));
-  if (is_black(sample.weight)) return {};
-  const bool agree =
-      dot(v.point.shading_normal, sample.direction) * dot(v.point.geometric_normal, sample.direction) > 0;
-  if (!agree) return {};
-  return {{leave(v.point, sample.direction), sample.direction},
-          sample.weight * adjoint(v.point, v.in, sample.direction),
-          Origin::kSpecular};
-}
-
-Scattered go_straight(const Vertex& v) { return {{leave(v.point, -v.in), -v.in}, v.straight, Origin::kSpecular, true}; }
-
-/// One of the parts that send light of this colour on, by what they send; its weight is divided by the probability.
-Scattered scatter(const Vertex& v, const Spectrum& power, const BounceSampler& sampler) {
-  std::array<float, 3> share{luminance(power * v.bsdf.diffuse_reflectance()),
-                             v.bsdf.has_specular() ? luminance(power * v.bsdf.specular_albedo()) : 0,
-                             luminance(power * v.straight)};
-  const float total = share[0] + share[1] + share[2];
-  if (!(total > 0)) return {};
-  float sum = 0;
-  for (float& s : share) sum += s = s > 0 ? std::max(s, kLeastChoice * total) : 0;
-  const float choice = sampler.one(kPart) * sum;
-  const std::size_t part = choice < share[0] ? 0 : (choice < share[0] + share[1] || !(share[2] > 0) ? 1 : 2);
-  if (!(share[part] > 0)) return {};
-  Scattered scattered =
-      part == 0 ? scatter_diffuse(v, sampler) : (part == 1 ? scatter_specular(v, sampler) : go_straight(v));
-  scattered.weight *= sum / share[part];
-  return scattered;
-}
 
 class Follower {
  public:
@@ -130,17 +49,18 @@ class Follower {
       losses_.escaped += static_cast<double>(luminance(segment.power));
       return false;
     }
-    const Vertex vertex(world_, *hit, -segment.ray.direction);
+    const LightVertex vertex(world_, *hit, -segment.ray.direction);
     segment.end_normal = vertex.point.geometric_normal;
     see_(segment);
     return leave_surface(vertex, *hit, sampler, segment);
   }
 
  private:
-  bool leave_surface(const Vertex& vertex, const Hit& hit, const BounceSampler& sampler, Segment& segment) {
+  bool leave_surface(const LightVertex& vertex, const Hit& hit, const BounceSampler& sampler, Segment& segment) {
     const Spectrum arrived = segment.power * hit.weight * world_.surfaces.absorption(vertex.point, hit.distance);
     const double before = static_cast<double>(luminance(segment.power));
-    const Scattered next = scatter(vertex, arrived, sampler);
+    const ScatteredLight next =
+        scatter_light(vertex, arrived, {sampler.one(kPart), sampler.one(kLobe), sampler.two(kWay)});
     const Spectrum sent = arrived * next.weight;
     const float survive = before > 0 ? std::min(kMaxSurvival, luminance(sent) / static_cast<float>(before)) : 0;
     if (!(survive > 0) || sampler.one(kSurvival) >= survive) {
@@ -157,7 +77,9 @@ class Follower {
     const float side = dot(next.ray.direction, vertex.point.geometric_normal) < 0 ? -1.0F : 1.0F;
     segment.ray = next.ray;
     segment.begin = 0;
-    segment.origin = next.origin;
+    const bool is_folded = world_.scene.materials[vertex.point.material].folds_specular;
+    segment.leaves_specular = next.is_specular;
+    segment.origin = next.is_specular && !is_folded ? Origin::kSpecular : Origin::kDiffuse;
     segment.plane = vertex.point.geometric_normal * side;
     return true;
   }

@@ -21,7 +21,8 @@ struct Segment {
   float begin = 0;                                     // distance from which it carries `power`, m
   float end = std::numeric_limits<float>::infinity();  // of the surface that it meets
   Spectrum power;  // lm, as if there were no other path: the mean over paths is the scene's light
-  Origin origin = Origin::kEmitter;
+  Origin origin = Origin::kEmitter;  // kDiffuse too where a surface's gloss is folded into diffuse
+  bool leaves_specular = false;      // by a specular lobe, folded or not
   Vec3 plane{0, 0, 0};       // unit normal of the surface that it left, on the side of the ray; zero: points, sky
   std::uint32_t bounce = 0;  // surfaces met before; panes count
   // The surface that it meets, where it meets one:

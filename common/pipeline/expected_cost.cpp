@@ -41,6 +41,12 @@ PilotCost trace_pilot(const World& world, const Film& film) {
   return {seconds / kPilotPixels, rays > 0 ? seconds / rays : 0};
 }
 
+/// Some five rays a path, as many searches for discs, and what discs count.
+double photon_seconds(const Settings& settings, const PilotCost& pilot) {
+  const double pixels = static_cast<double>(settings.width) * settings.height;
+  return static_cast<double>(settings.photons) * 10 * pilot.ray_seconds + pixels * static_cast<double>(settings.photon_crossings) * 1e-7;
+}
+
 }  // namespace
 
 ExpectedCost expect_cost(const World& world, const Camera& camera, const Settings& settings) {
@@ -54,10 +60,8 @@ ExpectedCost expect_cost(const World& world, const Camera& camera, const Setting
     cost.high = 1.5 * samples * pilot.sample_seconds + cost.audit;
     return cost;
   }
+  const double light = photon_seconds(settings, pilot);
   if (settings.integrator == Settings::Integrator::kPaths) {
-    // Some five rays a path, as many searches for discs, and what discs count.
-    const double pixels = static_cast<double>(settings.width) * settings.height;
-    const double light = static_cast<double>(settings.photons) * 10 * pilot.ray_seconds + pixels * settings.photon_crossings * 1e-7;
     cost.low = 0.5 * light + samples * pilot.ray_seconds + cost.audit;
     cost.high = 3 * light + 20 * samples * pilot.ray_seconds + cost.audit;
     return cost;
@@ -79,9 +83,9 @@ ExpectedCost expect_cost(const World& world, const Camera& camera, const Setting
   const double lines = static_cast<double>(senders.samples_per_gather);
   const double rays = is_paper ? paper_rays : samples * (1 + lines + senders.reflected_rays * (1 + senders.next_events));
   const double gather = rays * kTimesRays * pilot.ray_seconds;
-  cost.low = 0.6 * gather + kLowPerTriangle * triangles + 0.5 * kSenders + cost.audit;
+  cost.low = 0.6 * gather + 0.5 * light + kLowPerTriangle * triangles + 0.5 * kSenders + cost.audit;
   const double most = settings.max_camera_samples > settings.camera_samples ? kMoreSamples : 1;
-  cost.high = 1.7 * most * gather + kHighPerTriangle * triangles + 3 * kSenders + cost.audit;
+  cost.high = 1.7 * most * gather + 3 * light + kHighPerTriangle * triangles + 3 * kSenders + cost.audit;
   return cost;
 }
 

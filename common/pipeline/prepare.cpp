@@ -111,10 +111,13 @@ json scene_facts(const Planned& planned) {
   return facts;
 }
 
-json warnings(const Planned& planned) {
+json warnings(const Planned& planned, const RenderRequest& request) {
   json lines = json::array();
   for (const std::string& note : planned.world->scene.notes) lines.push_back(note);
   if (planned.camera.is_framed) lines.push_back("the file has no camera: framed the bulk of the geometry");
+  if ((request.photons || request.radius) && planned.settings.photons == 0) {
+    lines.push_back("--photons and --radius are not used: no specular surface sends diffuse ones light worth a photon path; --effects +caustics");
+  }
   if (planned.settings.draws_mesh != 0) lines.push_back("--mesh draws over the image: it is not audited");
   if (planned.measurements.has_environment && !planned.plan.is_active("environment")) {
     lines.push_back("the sky is left out: none of " + std::to_string(planned.measurements.pilot.walks) +
@@ -137,7 +140,8 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   clock.end_stage("load");
   RADFARM_TRY_STATUS(progress.check());
   progress.report("acceleration");
-  planned.world = std::make_unique<World>(std::move(scene));
+  // As most scenes are rendered: no other world is needed then.
+  planned.world = std::make_unique<World>(specialise(std::move(scene), kFoldable));
   clock.end_stage("acceleration");
   RADFARM_TRY_STATUS(progress.check());
   progress.report("effects");
@@ -153,6 +157,7 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   RADFARM_TRY(planned.plan, plan_effects(planned.measurements, is_path ? Transport::kPathTrace : gather, request.effects));
   planned.settings.effects_off = planned.plan.off();
   planned.settings.exactly_off = planned.plan.exactly_off();
+  resolve_specular_light(request, planned.plan, planned.settings);
   planned.unaudited = unaudited(planned.measurements);
   clock.end_stage("effects");
   planned.facts = {{"scene", scene_facts(planned)},
@@ -164,7 +169,7 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
                    {"counts", json::object()},
                    {"energy", {{"emitted", planned.measurements.emitted_flux}, {"absorbed", nullptr},
                                {"escaped", nullptr}, {"truncated", nullptr}, {"closure_error", nullptr}}},
-                   {"warnings", warnings(planned)}};
+                   {"warnings", warnings(planned, request)}};
   return planned;
 }
 
@@ -178,7 +183,8 @@ json energy_json(const EnergyLedger& energy) {
 
 /// The world without the effects that are off; `made` holds it where it is another.
 const World& rendered_world(const Planned& planned, std::optional<World>& made) {
-  if (!changes_scene(planned.settings.effects_off)) return *planned.world;
+  const bool folds_all = !planned.plan.is_active("caustics") && !planned.plan.is_active("glossy_interreflection");
+  if (!changes_scene(planned.settings.effects_off) && folds_all) return *planned.world;
   return made.emplace(specialise(planned.world->scene, planned.settings.effects_off));
 }
 

@@ -15,6 +15,9 @@ namespace {
 constexpr float kPaperSamples = 12;
 constexpr std::uint64_t kPhotonBatches = 16;  // tasks: each returns sums of the whole image
 constexpr float kCrossings = 200;              // of a disc, of 4 million paths
+// A gather's noise is that of all its light: where paths carry less than this share of it, fewer do, but never less than ...
+constexpr double kAllPhotonsFrom = 0.1;
+constexpr double kLeastPhotons = 1.0 / 16;     // ... this share of them
 constexpr int kDefaultWidth = 640;
 constexpr double kDefaultAspect = 16.0 / 9.0;
 
@@ -127,11 +130,11 @@ float mean_radiance(const RadiositySolution& solution) {
 }
 
 /// (paths.6): from quality to quality noise and bias fall together, a disc's area as n^(-1/3).
-void resolve_photons(const RenderRequest& request, std::uint64_t photons, Settings& settings) {
-  if (settings.integrator != Settings::Integrator::kPaths) return;
-  settings.photons = request.photons ? static_cast<std::uint64_t>(*request.photons) : photons;
+void resolve_photons(const RenderRequest& request, OriginSet origins, double share, Settings& settings) {
+  const auto all = static_cast<double>(kQuality[static_cast<std::size_t>(request.quality)].photons);
+  settings.photons = request.photons ? static_cast<std::uint64_t>(*request.photons) : static_cast<std::uint64_t>(share * all);
   settings.photon_batches = static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.photons, kPhotonBatches));
-  settings.photon_origins = kAllOrigins;
+  settings.photon_origins = origins;
   settings.photon_radius = request.radius.value_or(0);
   settings.photon_crossings = kCrossings * std::pow(static_cast<float>(settings.photons) / 4e6F, 2.0F / 3);
 }
@@ -178,8 +181,21 @@ Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   }
   settings.senders.threshold_scale = is_full || request.threshold ? 0 : quality.threshold_scale;
   settings.senders.threshold = is_full ? 0 : request.threshold.value_or(0);
-  resolve_photons(request, quality.photons, settings);
+  if (settings.integrator == Settings::Integrator::kPaths) resolve_photons(request, kAllOrigins, 1, settings);
   return settings;
+}
+
+void resolve_specular_light(const RenderRequest& request, const EffectsPlan& plan, Settings& settings) {
+  if (settings.integrator != Settings::Integrator::kGather) return;
+  double light = 0;  // of all that diffuse surfaces reflect
+  bool is_carried = false;
+  for (const EffectDecision& effect : plan.effects) {
+    if (!effect.active || (effect.id != "caustics" && effect.id != "glossy_interreflection")) continue;
+    is_carried = true;
+    light += effect.value;
+  }
+  if (!is_carried) return;
+  resolve_photons(request, static_cast<OriginSet>(Origin::kSpecular), std::clamp(light / kAllPhotonsFrom, kLeastPhotons, 1.0), settings);
 }
 
 }  // namespace radfarm

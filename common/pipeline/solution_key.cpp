@@ -27,6 +27,7 @@ std::string solution_key(const Scene& scene, const RadiositySettings& settings, 
   hash.update_value(seed);
   hash.update_value(is_reflecting ? 1U : 0U);
   hash.update_value(static_cast<std::uint64_t>(form));
+  for (const Material& material : scene.materials) hash.update_value(material.folds_specular ? 1U : 0U);
   for (const std::vector<std::uint8_t>* which : {&shining.materials, &shining.lights}) {
     hash.update_value(static_cast<std::uint64_t>(which->size()));
     hash.update(std::as_bytes(std::span(*which)));

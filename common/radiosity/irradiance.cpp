@@ -75,6 +75,7 @@ std::vector<Irradiance> gather_irradiance(const World& world, const RadiositySol
       if (!is_undivided(hierarchy.nodes[i])) continue;
       const Patch& patch = hierarchy.patches[hierarchy.nodes[i].patch];
       irradiance[i].indirect = gather_indirect(around, patch, rays, combine(seed, kGatherKey, rays, i));
+      if (!solution.specular.empty()) irradiance[i].indirect += solution.specular[i];
     }
   });
   return irradiance;

@@ -8,7 +8,7 @@
 
 namespace radfarm {
 
-/// Light that arrives at a surface, lux: from emitters, and from what reflects.
+/// Light that arrives at a surface, lux: from emitters, and from what reflects, mirrors and glass too.
 struct Irradiance {
   Spectrum direct;
   Spectrum indirect;

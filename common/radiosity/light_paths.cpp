@@ -10,7 +10,7 @@
 #include "base/random.h"
 #include "math/sampling.h"
 #include "math/sobol.h"
-#include "radiosity/specular_light.h"
+#include "paths/light_scattering.h"
 #include "scene/emission_sampling.h"
 
 namespace radfarm {
@@ -21,7 +21,6 @@ constexpr std::size_t kBatch = 1 << 16;           // paths whose hits are held a
 constexpr std::size_t kGrain = 512;
 // Where it is less than the square of a reflectance, the power of paths has no finite variance; 1 would let one go on without end.
 constexpr float kMaxSurvival = 0.9999F;
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct PathHit {
@@ -41,21 +40,35 @@ struct Tracer {
   const SideNumbers& sides;
   const Hierarchy& hierarchy;
   const std::vector<std::uint32_t> node_of_side;
-  const SpecularStarts specular;
-  double emitted_share;  // of all paths: those that emitters send
   float per_path;
   std::uint64_t key;
 };
 
-/// What a surface sends on of the power that arrives at one of its points; the key is the bounce's. Nothing: all is absorbed.
-std::optional<EmittedRay> send_on(const SurfacePoint& point, const Spectrum& arrived, const Spectrum& reflected,
-                                  std::uint64_t key, std::uint32_t index, Run& run) {
-  run.absorbed += static_cast<double>(luminance(arrived) - luminance(reflected));
-  run.lost += SpectrumD(arrived - reflected);
-  const float survive = std::min(kMaxSurvival, luminance(reflected) / luminance(arrived));
+/// What a surface sends on of the power that arrives at one of its points, by chance as likely as it is much; the key is the bounce's.
+/// Nothing: all is absorbed.
+std::optional<EmittedRay> send_on(const Ray& ray, const Spectrum& arrived, const Spectrum& sent, std::uint64_t key,
+                                  std::uint32_t index, Run& run) {
+  run.absorbed += static_cast<double>(luminance(arrived) - luminance(sent));
+  run.lost += SpectrumD(arrived - sent);
+  const float survive = std::min(kMaxSurvival, luminance(sent) / luminance(arrived));
   if (to_unit_float(combine(key, 2, index)) >= survive) return std::nullopt;
+  return EmittedRay{ray, sent / survive};
+}
+
+std::optional<EmittedRay> reflect(const SurfacePoint& point, const Spectrum& arrived, const Spectrum& reflected,
+                                  std::uint64_t key, std::uint32_t index, Run& run) {
   const Vec3 local = sample_cosine_hemisphere(sobol_owen_2d(index, combine(key, 3)));
-  return EmittedRay{{leave(point), normalize(Frame(point.geometric_normal).to_world(local))}, reflected / survive};
+  return send_on({leave(point), normalize(Frame(point.geometric_normal).to_world(local))}, arrived, reflected, key, index, run);
+}
+
+/// Where gloss is not folded into diffuse, light goes on by one of the surface's lobes.
+std::optional<EmittedRay> scatter(const Tracer& tracer, const Hit& hit, const Vec3& back, const Spectrum& arrived,
+                                  std::uint64_t key, std::uint32_t index, Run& run) {
+  const LightVertex vertex(tracer.world, hit, back);
+  const Spectrum left = arrived * tracer.world.surfaces.absorption(vertex.point, hit.distance);
+  const ScatteredLight next = scatter_light(vertex, left, {sobol_owen_1d(index, combine(key, 5)), sobol_owen_1d(index, combine(key, 6)),
+                                                           sobol_owen_2d(index, combine(key, 3))});
+  return send_on(next.ray, arrived, left * next.weight, key, index, run);
 }
 
 /// Light on its way meets a surface, or nothing. Returns what goes on.
@@ -80,30 +93,18 @@ std::optional<EmittedRay> meet(const Tracer& tracer, const EmittedRay& light, st
   const std::uint32_t leaf = tracer.node_of_side[tracer.sides.of(hit->instance, hit->triangle, point.is_front)];
   if (bounce == 0) run.landed += SpectrumD(arrived);
   if (bounce > 0 && leaf != kNone) run.hits.push_back({part_at(tracer.hierarchy, leaf, point.position), reflected});
-  return send_on(point, arrived, reflected, key, index, run);
-}
-
-/// Light that specular paths bring, sent on by the surface at which it arrives: the first, as for light that an emitter sent.
-std::optional<EmittedRay> start_anew(const Tracer& tracer, double choice, const Vec2& place, std::uint32_t index, Run& run) {
-  const SpecularArrival start = tracer.specular.sample(choice, place);
-  const Spectrum arrived = start.power * (tracer.per_path / static_cast<float>(1 - tracer.emitted_share));
-  run.landed += SpectrumD(arrived);
-  return send_on(start.point, arrived, arrived * start.reflectance, combine(tracer.key, 4, 0), index, run);
+  const Material& material = tracer.world.scene.materials[point.material];
+  if (material.folds_specular || material.is_lambertian()) return reflect(point, arrived, reflected, key, index, run);
+  return scatter(tracer, *hit, -light.ray.direction, arrived, key, index, run);
 }
 
 void follow_path(const Tracer& tracer, std::uint32_t index, Run& run) {
   const std::uint64_t key = tracer.key;
-  const double choice = static_cast<double>(sobol_owen_1d(index, combine(key, 1))), emitted = tracer.emitted_share;
-  const Vec2 place = sobol_owen_2d(index, combine(key, 2));
-  const bool is_emitted = choice < emitted;
-  std::optional<EmittedRay> light;
-  if (is_emitted) {
-    light = sample_emission(tracer.world, std::min(choice / emitted, kBelowOne), place, sobol_owen_2d(index, combine(key, 3)));
-    light->power *= tracer.per_path / static_cast<float>(emitted);
-  } else {
-    light = start_anew(tracer, std::min((choice - emitted) / (1 - emitted), kBelowOne), place, index, run);
-  }
-  for (std::uint32_t bounce = is_emitted ? 0 : 1; light && luminance(light->power) > 0; ++bounce) {
+  const double choice = static_cast<double>(sobol_owen_1d(index, combine(key, 1)));
+  std::optional<EmittedRay> light = sample_emission(tracer.world, choice, sobol_owen_2d(index, combine(key, 2)),
+                                                    sobol_owen_2d(index, combine(key, 3)));
+  light->power *= tracer.per_path;
+  for (std::uint32_t bounce = 0; light && luminance(light->power) > 0; ++bounce) {
     light = meet(tracer, *light, bounce, index, run);
   }
 }
@@ -121,13 +122,11 @@ void add(const Run& run, PathHits& result) {
 
 }  // namespace
 
-PathHits follow_light(const FirstLight& light, const SideNumbers& sides, const Hierarchy& hierarchy, std::size_t paths,
+PathHits follow_light(const World& world, const SideNumbers& sides, const Hierarchy& hierarchy, std::size_t paths,
                       std::uint64_t seed, const Progress& progress) {
   PathHits result{std::vector<std::uint32_t>(hierarchy.nodes.size()), std::vector<SpectrumD>(hierarchy.nodes.size())};
-  SpecularStarts specular(light, sides, hierarchy);
-  const double emitted = light.world.emitters.total_flux, all = emitted + specular.flux();
-  const Tracer tracer{light.world, sides, hierarchy, nodes_of_sides(sides, hierarchy), std::move(specular),
-                      all > 0 ? emitted / all : 1, 1 / static_cast<float>(paths), combine(seed, kPathKey)};
+  const Tracer tracer{world, sides, hierarchy, nodes_of_sides(sides, hierarchy), 1 / static_cast<float>(paths),
+                      combine(seed, kPathKey)};
   std::atomic<std::size_t> done = 0;
   for (std::size_t begin = 0; begin < paths && !progress.is_cancelled(); begin += kBatch) {
     const std::size_t count = std::min(kBatch, paths - begin);

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "radiosity/first_light.h"
 #include "radiosity/hierarchy.h"
 
 namespace radfarm {
 
-/// What paths of light met, after their first surface: what emitters and specular paths bring there is known already.
+/// What paths of light met, after their first surface: what emitters bring there is known already.
 struct PathHits {
   std::vector<std::uint32_t> count;    // one a node, at undivided patches
   std::vector<SpectrumD> reflected;    // lm, one a node, at undivided patches: what they reflect of it
@@ -23,13 +22,10 @@ struct PathHits {
 
 /// Follows `paths` paths of light until they are absorbed or leave the scene.                 docs/pipeline.md (radiosity.7)
 ///
-/// They start from the emitters, and where specular paths bring light: there the first surface is that of the start.
-/// Each source has paths by its share of the flux.
-/// Paths go on from the very points they meet, with the reflectance there, so nothing is smeared over patches; they survive a
-/// reflection with the share of luminance that is reflected. A side that was left out of the hierarchy reflects like any other
-/// but keeps no count. About 1 us a ray. Deterministic for any thread count.
-/// Requires: sides with specular light are in `hierarchy`.
-PathHits follow_light(const FirstLight& light, const SideNumbers& sides, const Hierarchy& hierarchy, std::size_t paths,
+/// They go on from the very points they meet, with the reflectance there, so nothing is smeared over patches, and where gloss is not
+/// folded by their lobes; they survive with the share of luminance that is sent on. A side that was left out of the hierarchy
+/// reflects like any other but keeps no count. About 1 us a ray. Deterministic for any thread count.
+PathHits follow_light(const World& world, const SideNumbers& sides, const Hierarchy& hierarchy, std::size_t paths,
                       std::uint64_t seed, const Progress& progress = {});
 
 /// Scales what was found, by channel, so that as much is lost as had landed. What chance did to the length

@@ -151,9 +151,9 @@ void light_emitters(const World& world, const SideNumbers& sides, const std::vec
   }
 }
 
-void light_specular(const FirstLight& light, Reach& reach) {
-  for (std::uint32_t s = 0; s < light.specular.size(); ++s) {
-    if (!is_black(light.specular[s])) reach.light(s);
+void light_specular(std::span<const Spectrum> specular, Reach& reach) {
+  for (std::uint32_t s = 0; s < specular.size(); ++s) {
+    if (!is_black(specular[s])) reach.light(s);
   }
 }
 
@@ -189,14 +189,13 @@ SideNumbers::SideNumbers(const Scene& scene) {
   count = 2 * triangles;
 }
 
-std::vector<bool> reachable_sides(const FirstLight& light, const SideNumbers& sides, std::uint64_t seed,
-                                  const Progress& progress) {
-  RADFARM_CHECK(light.specular.empty() || light.specular.size() == sides.count);
-  const World& world = light.world;
+std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed, const Progress& progress,
+                                  std::span<const Spectrum> specular) {
+  RADFARM_CHECK(specular.empty() || specular.size() == sides.count);
   const std::vector<Side> list = list_sides(world.scene, sides.count);
   Reach reach{DisjointSets(list.size()), std::vector<bool>(list.size())};
   light_emitters(world, sides, list, seed, reach);
-  light_specular(light, reach);
+  light_specular(specular, reach);
   const std::vector<std::uint32_t> counts = share_rays(world, list);
   std::vector<Rays> rays(list.size());
   for (std::size_t s = 0; s < rays.size(); ++s) rays[s] = {0, counts[s]};

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/progress.h"
-#include "radiosity/first_light.h"
+#include "scene/world.h"
 
 namespace radfarm {
 
@@ -25,7 +26,8 @@ struct SideNumbers {
 /// The inside of closed furniture and the outside of a closed room are not: without this,
 /// clusters would spread light to faces that turn the right way but lie inside (docs/pipeline.md, radiosity.2).
 /// A ray a side, more from large ones, and up to 4 from sides that these leave dark; about 1 us each. Deterministic.
-std::vector<bool> reachable_sides(const FirstLight& light, const SideNumbers& sides, std::uint64_t seed,
-                                  const Progress& progress = {});
+/// `specular`: specular_irradiance() of the sides, or nothing.
+std::vector<bool> reachable_sides(const World& world, const SideNumbers& sides, std::uint64_t seed, const Progress& progress = {},
+                                  std::span<const Spectrum> specular = {});
 
 }  // namespace radfarm

@@ -146,40 +146,48 @@ void start_with_specular(const Hierarchy& hierarchy, const std::vector<Spectrum>
 }
 
 /// (radiosity.7) The light that surfaces exchange, as paths find it; the links' solution is the guess where few paths went.
-void follow_paths(const FirstLight& light, const SideNumbers& sides, const std::vector<Spectrum>& direct,
-                  const RadiositySettings& settings, std::uint64_t seed, const Progress& progress,
-                  RadiositySolution& solution) {
+void follow_paths(const World& world, const SideNumbers& sides, const RadiositySettings& settings, std::uint64_t seed,
+                  const Progress& progress, RadiositySolution& solution) {
   const Hierarchy& hierarchy = solution.hierarchy;
-  const std::vector<Spectrum> reflected = reflect_direct(hierarchy, direct);
+  const std::vector<Spectrum>& reflected = solution.reflected_direct;
   std::vector<Spectrum> indirect(hierarchy.nodes.size());
   for (std::size_t i = 0; i < indirect.size(); ++i) {
     if (is_undivided(hierarchy.nodes[i])) indirect[i] = solution.reflected_power[i] - reflected[i];
   }
-  PathHits hits = follow_light(light, sides, hierarchy, count_paths(settings, solution), seed, progress);
+  PathHits hits = follow_light(world, sides, hierarchy, count_paths(settings, solution), seed, progress);
   balance(hits);
   indirect = combine_with_guess(hierarchy, hits, indirect);
   for (std::size_t i = 0; i < indirect.size(); ++i) solution.reflected_power[i] = reflected[i] + indirect[i];
   pull_up(hierarchy, solution.reflected_power);
+  solution.energy.emitted = std::min(solution.energy.emitted, world.emitters.total_flux);  // what mirrors send on is no new light
   solution.energy.absorbed = hits.absorbed;
   solution.energy.truncated = 0;
   solution.energy.escaped = solution.energy.emitted - hits.absorbed;
 }
 
+/// All that specular surfaces bring, lm (luminance).
+double specular_flux(const Hierarchy& hierarchy, const std::vector<Spectrum>& specular) {
+  double flux = 0;
+  for (std::size_t i = 0; i < specular.size(); ++i) flux += static_cast<double>(luminance(specular[i]) * hierarchy.nodes[i].area);
+  return flux;
+}
+
 }  // namespace
 
-RadiositySolution solve_radiosity(const FirstLight& light, const RadiositySettings& settings, std::uint64_t seed,
+RadiositySolution solve_radiosity(const World& world, const RadiositySettings& settings, std::uint64_t seed,
                                   const Progress& progress) {
   RadiositySolution solution;
-  const World& world = light.world;
   const SideNumbers sides(world.scene);
-  const std::vector<bool> reachable = reachable_sides(light, sides, seed, progress);
+  const std::vector<Spectrum> of_sides = specular_irradiance(world, sides, seed);
+  const std::vector<bool> reachable = reachable_sides(world, sides, seed, progress, of_sides);
   solution.hierarchy = build_hierarchy(world, sides, reachable, progress);
   const Hierarchy& hierarchy = solution.hierarchy;
   solution.reflected_power.resize(hierarchy.nodes.size());
-  double flux = world.emitters.total_flux + SpecularStarts(light, sides, hierarchy).flux();  // that errors are shares of
+  solution.specular = specular_at_patches(of_sides, sides, hierarchy);
+  double flux = world.emitters.total_flux + specular_flux(hierarchy, solution.specular);  // that errors are shares of
   if (hierarchy.nodes.empty() || !(flux > 0)) return solution;
   solution.energy.emitted = flux;
-  start_with_specular(hierarchy, specular_irradiance(light, sides, hierarchy), solution.reflected_power);
+  start_with_specular(hierarchy, solution.specular, solution.reflected_power);
   std::vector<Link> links = initial_links(world, hierarchy);
   std::vector<Spectrum> direct, first;
   bool is_last = false;
@@ -194,7 +202,8 @@ RadiositySolution solve_radiosity(const FirstLight& light, const RadiositySettin
       cut_by_direct_light(world, settings, flux, seed, solution.hierarchy, direct, solution.reflected_power, progress);
       sample_direct(world, hierarchy, settings.direct_samples, seed, direct, progress);
     }
-    first = add_specular(direct, specular_irradiance(light, sides, hierarchy));
+    solution.specular = specular_at_patches(of_sides, sides, hierarchy);  // patches were cut
+    first = add_specular(direct, solution.specular);
     if (shines_from_outside(world)) flux = std::min(flux, std::max(landed(hierarchy, first), 1e-3 * flux));
     // Passes before the last only steer the refinement.
     const double residual = static_cast<double>(settings.residual) * (is_last ? 1 : kSteeringResidual);
@@ -204,7 +213,7 @@ RadiositySolution solve_radiosity(const FirstLight& light, const RadiositySettin
   if (progress.is_cancelled()) return solution;
   solution.reflected_direct = reflect_direct(hierarchy, direct);
   if (settings.hits_per_patch > 0) {
-    follow_paths(light, sides, first, settings, seed, progress, solution);
+    follow_paths(world, sides, settings, seed, progress, solution);
   }
   return solution;
 }

@@ -81,6 +81,7 @@ struct Material {
   std::uint32_t unsimulated = 0;
   bool asks_for(std::uint32_t bit) const { return (unsimulated & bit) != 0; }
   bool is_switched_off = false;              // a lamp of no power: the file gives an emission, and 0 as its strength
+  bool folds_specular = false;               // diffuse surfaces get its specular light as if it were diffuse (specialise()); not stored
 
   bool is_lambertian() const {
     return metallic == 0 && specular == 0 && transmission == 0 && clearcoat == 0 && is_black(sheen_color);

@@ -303,6 +303,7 @@ Matter Surfaces::matter(const SurfacePoint& point) const {
   matter.sheen = m.sheen_color * color(look_around(m.sheen_color_texture));
   matter.sheen_roughness = m.sheen_roughness * look(m.sheen_roughness_texture).w;
   matter.anisotropy = m.anisotropy, matter.anisotropy_rotation = m.anisotropy_rotation;
+  matter.folds_specular = m.folds_specular;
   return matter;
 }
 

@@ -65,7 +65,7 @@ class Surfaces {
   Matter matter(const SurfacePoint& point) const;
   /// What a volume leaves of a ray that went `distance` through it to its inner side at `point`; 1 elsewhere. Requires: face()d.
   Spectrum absorption(const SurfacePoint& point, float distance) const;
-  /// What the surface reflects of light from all around evenly, [0, 1], gloss included: rho of radiosity.
+  /// What the surface reflects of light from all around evenly, [0, 1], with gloss where it is folded: rho of radiosity.
   Spectrum reflectance(const SurfacePoint& point) const;
   /// The same of light at a cosine to the normal.
   Spectrum reflectance(const SurfacePoint& point, float cosine) const;

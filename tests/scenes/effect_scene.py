@@ -191,6 +191,13 @@ def sphere(rings=16, sides=32):
     return points, points, indices
 
 
+def hollow():
+    """A sphere seen from inside: the inner face of a shell."""
+    points, normals, indices = sphere()
+    turned = [indices[i + k] for i in range(0, len(indices), 3) for k in (0, 2, 1)]
+    return points, [tuple(-c for c in n) for n in normals], turned
+
+
 def ring(sides=96):
     """A band around the y axis: radius 1, y from 0 to 1, without thickness; faces outwards."""
     around = [(math.cos(2 * math.pi * s / sides), math.sin(2 * math.pi * s / sides)) for s in range(sides)]

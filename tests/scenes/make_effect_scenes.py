@@ -7,7 +7,7 @@ only; the same bytes on every machine.
 from effect_parts import (BLACK, BLUE, GLASS, GOLD, GREEN, GREY, RED, WHITE, add_leaves, ceiling_square, glass, leaf,
                           screen, square, stage, studs, three_boxes, tiles, upright)
 from effect_room import all_effects
-from effect_scene import DOWN, EffectScene, image, ring
+from effect_scene import DOWN, EffectScene, hollow, image, ring
 from make_scenes import FOLDER, cornell
 
 
@@ -264,6 +264,46 @@ def glass_sphere():
     return scene
 
 
+def globe():
+    """All light passes a glass globe around its lamp."""
+    scene = EffectScene("globe", (-1.1, 1.2, 3.4), (.1, .8, -.4), .8)
+    for name, rho in (("wall", GREY), ("red", RED), ("green", GREEN)):
+        scene.material(name, rho)
+    scene.inward_box(["wall", "wall", "red", "wall", "wall", "wall"], (-1.8, 0, -1.8), (1.8, 2.4, 3.6))
+    scene.material("lamp", BLACK, (40, 38, 34))
+    scene.box("lamp", (-.18, 1.22, -.18), (.18, 1.58, .18), 0)
+    scene.material("glass", (1, 1, 1), **glass((.9, .8, .6), 1))
+    scene.shapes["hollow"] = hollow
+    scene.smooth("sphere", "glass", (0, 1.4, 0), .45)
+    scene.smooth("hollow", "glass", (0, 1.4, 0), .4)
+    three_boxes(scene, "green")
+    return scene
+
+
+def mirror_faces_wall():
+    """The block hides the lamp from the floor behind it: a mirror that faces the lit wall lights it."""
+    scene = EffectScene("mirror_faces_wall", (-1.3, 1.3, 2.6), (.5, .3, -.4), .8)
+    for name, rho in (("floor", GREY), ("wall", WHITE), ("screen", (.08, .08, .08))):
+        scene.material(name, rho)
+    square(scene, "floor", -2, 2, -2, 2, 0)
+    upright(scene, "wall", -2, 0, 0, 2, -2)
+    scene.material("mirror", (.95, .93, .88), metallic=1, roughness=0, specular=1)
+    scene.polygon("mirror", (1.6, 0, .4), (1.6, 0, -1.8), (1.6, 1.6, -1.8), (1.6, 1.6, .4))
+    scene.box("screen", (-.3, 0, -1.2), (0, 1.5, .2), 0)
+    scene.material("lamp", BLACK, (60, 60, 60))
+    scene.lamp("lamp", (-1.6, 1.6, 0), (-1, .6, -1.6), .5)
+    return scene
+
+
+def glowing_box():
+    """Closed: five walls glow and reflect half, the sixth is a perfect mirror. Radiance is L / (1 - rho) everywhere."""
+    scene = EffectScene("glowing_box", (-.6, .2, .7), (.4, -.1, -1), 1)
+    scene.material("glow", (.5, .5, .5), (1, 1, 1))
+    scene.material("mirror", (1, 1, 1), metallic=1, roughness=0, specular=1)
+    scene.inward_box(["glow", "glow", "glow", "mirror", "glow", "glow"], (-1, -1, -1), (1, 1, 1))
+    return scene
+
+
 def window():
     """No lamp inside: what enters is the sky."""
     scene = EffectScene("window", (3.6, 1.5, 4.7), (.9, 1.05, .9), .95)
@@ -374,7 +414,7 @@ def write_ies():
 SCENES = (none, grey_cornell, colour_cornell, one_channel, interreflection, low_interreflection, convex_object, point_light,
           spot_light, directional_light, small_distant_light, large_near_light, textured_reflectance,
           textured_reflectance_constant, textured_emission, textured_emission_constant, alpha_mask, alpha_mask_opaque,
-          normal_map, normal_map_flat, glossy_floor, mirror, caustic, glass_sphere, window, open_plane_sky, closed_box_env,
+          normal_map, normal_map_flat, glossy_floor, mirror, caustic, glass_sphere, globe, mirror_faces_wall, glowing_box, window, open_plane_sky, closed_box_env,
           depth_of_field, vertex_colours, clearcoat, sheen, ies_lamp, all_effects)
 
 if __name__ == "__main__":

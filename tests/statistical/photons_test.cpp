@@ -9,8 +9,7 @@
 #include "frame/report.h"
 #include "image/digest.h"
 #include "image/rgb.h"
-#include "pipeline/pipeline.h"
-#include "support/small_scenes.h"
+#include "statistical/rendered_request.h"
 
 namespace radfarm {
 namespace {
@@ -33,19 +32,8 @@ RenderRequest paths(std::uint64_t photons) {
 }
 
 Finished render(const std::string& scene, const RenderRequest& request, int threads = 1) {
-  const Result<PreparedFiles> files = prepare(test::own_scene_path(scene), request);
-  EXPECT_TRUE(files) << files.error().message;
-  const Result<Prepared> prepared = Prepared::open(files->scene, files->solution, files->view);
-  EXPECT_TRUE(prepared) << prepared.error().message;
-  const std::vector<Task> tasks = *cut_tasks(files->view);
-  std::vector<std::vector<std::byte>> results(tasks.size());
   const ThreadLimit limit(threads);
-  parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) results[i] = *run_task(*prepared, tasks[i]);
-  });
-  Result<Finished> finished = finish(files->view, results, {});
-  EXPECT_TRUE(finished) << finished.error().message;
-  return std::move(*finished);
+  return test::rendered(scene, request);
 }
 
 double mean(const Image& image, const std::string& layer) {

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "effects/specialise.h"
 #include "support/small_scenes.h"
 
 namespace radfarm {
@@ -107,16 +108,14 @@ const std::vector<Row> kRows = {
     {"interreflection", [](Measurements& m) { m.max_reflectance = 0; }, false, 0, 0, "exact", kMean},
     {"interreflection", [](Measurements& m) { m.emitted_flux = 0; }, false, 0, 0, "exact", kMean},
     {"interreflection", [](Measurements& m) { m.max_reflectance = 1; }, true, kUnbounded, 0, "heuristic", kMean},
-    {"caustics", [](Measurements& m) { m.metals = 1, m.max_specular = 0.5F, m.max_reflectance = 0.5F; }, false, 1,
-     0.25 * 17, "rigorous", kMax},
-    {"caustics", [](Measurements& m) { m.volumes = 1, m.max_transmission = 1, m.max_reflectance = 0.5F; }, false, 1,
-     8.5, "rigorous", kMax},
-    {"caustics", [](Measurements& m) { m.mirrors = 1, m.max_specular = 1, m.punctual_lights = 1; }, false, 1,
-     kUnbounded, "rigorous", kMax},
-    {"caustics", [](Measurements&) {}, false, 0, 0, "exact", kMax},
-    {"glossy_interreflection", [](Measurements& m) { m.glossy = 2, m.max_specular = 0.5F; }, false, 2, 8.5, "rigorous",
-     kMax},
-    {"glossy_interreflection", [](Measurements&) {}, false, 0, 0, "exact", kMax},
+    {"caustics", [](Measurements& m) { m.specular.sharp = {0.25, 0.375}; }, true, 0.25, 0, "heuristic", kMean},
+    {"caustics", [](Measurements& m) { m.specular.sharp = {0x1p-8, 0x1p-7}; }, false, 0x1p-8, 10 * 0x1p-7, "heuristic", kMean},
+    {"caustics", [](Measurements& m) { m.specular.sharp = {0, 0x1p-10}; }, false, 0, 10 * 0x1p-10, "heuristic", kMean},
+    {"caustics", [](Measurements&) {}, false, 0, 0, "exact", kMean},
+    {"glossy_interreflection", [](Measurements& m) { m.specular.rough = {0.25, 0.375}; }, true, 0.25, 0, "heuristic", kMean},
+    {"glossy_interreflection", [](Measurements& m) { m.specular.rough = {0x1p-5, 0x1p-4}; }, false, 0x1p-5, 10 * 0x1p-4, "heuristic",
+     kMean},
+    {"glossy_interreflection", [](Measurements&) {}, false, 0, 0, "exact", kMean},
     {"bounces", [](Measurements&) {}, true, 0.7 / 0.3, 0, "exact", kMax},
     {"depth_of_field", [](Measurements& m) { m.pilot.max_blur = 2; }, true, 2, 0, "heuristic", kMax},
     {"depth_of_field", [](Measurements& m) { m.pilot.max_blur = 0.25F; }, false, 0.25, 10, "heuristic", kMax},
@@ -166,14 +165,27 @@ TEST(PlanEffects, HasNoRowThatTheTableOfTheTestLeavesOut) {
 
 TEST(PlanEffects, ThePathTracerCarriesWhatTheGatherLeavesOut) {
   Measurements m = lit_room();
-  m.metals = 1;
-  m.max_specular = 0.5F;
+  m.specular = {{0x1p-10, 0x1p-9}, {0x1p-5, 0x1p-4}};
   const EffectsPlan path = plan_of(m, "", Transport::kPathTrace);
   for (const char* id : {"caustics", "glossy_interreflection"}) {
     EXPECT_TRUE(path.is_active(id)) << id;
     EXPECT_EQ(decision(path, id).bound, 0) << id;
     EXPECT_FALSE(plan_of(lit_room(), "", Transport::kPathTrace).is_active(id)) << id;
+    EXPECT_FALSE(plan_of(m).is_active(id)) << id;
   }
+  EXPECT_FALSE(plan_effects(m, Transport::kPathTrace, "-caustics").has_value()) << "paths carry it";
+}
+
+TEST(PlanEffects, WhatIsFoldedCanBeCarriedAndIsNoOtherScene) {
+  Measurements m = lit_room();
+  m.specular = {{0.25, 0.375}, {0x1p-5, 0x1p-4}};
+  EXPECT_EQ(plan_of(m).off() & kFoldable, bit_of(Effect::kGlossyInterreflection));
+  EXPECT_EQ(plan_of(m).exactly_off(), plan_of(m).off()) << "the path tracer knows no switch for it";
+  EXPECT_EQ(plan_of(m, "+glossy_interreflection").off() & kFoldable, 0U);
+  const EffectsPlan off = plan_of(m, "-caustics");
+  EXPECT_EQ(off.off() & kFoldable, kFoldable);
+  EXPECT_EQ(decision(off, "caustics").bound, 2.5);
+  EXPECT_FALSE(changes_scene(off.off() & kFoldable));
 }
 
 TEST(PlanEffects, MaskingIsOfThePapersGatherAndWhereThereIsDetail) {
@@ -251,13 +263,15 @@ TEST(PlanEffects, EveryEffectWithASwitchCanBeForcedOffAndOn) {
   m.least_coverage = 0;
   m.has_environment = true;
   m.pilot.escaped = 500;
+  m.specular = {{0.25, 0.375}, {0.25, 0.375}};
   EXPECT_EQ(plan_of(m).off(), 0U);
   // Masking, the last, is in no set: it has a test of its own.
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Effect::kMasking); ++i) {
     const std::string id(id_of(Effect{i}));
     const EffectsPlan off = plan_of(m, "-" + id);
     EXPECT_EQ(off.off(), bit_of(Effect{i})) << id;
-    EXPECT_EQ(off.exactly_off(), 0U) << id << ": the audit shows what was left out";
+    // The audit shows what was left out; what is folded is no other scene to it.
+    EXPECT_EQ(off.exactly_off(), bit_of(Effect{i}) & kFoldable) << id;
     EXPECT_GT(decision(off, id).bound, 0) << id;
     EXPECT_NE(decision(off, id).bound_kind, "exact") << id;
     EXPECT_THAT(decision(off, id).note, testing::HasSubstr("forced off"));
@@ -286,7 +300,7 @@ TEST(PlanEffects, RefusesWhatItDoesNotKnowOrCannotDo) {
   gilded.metals = 1;
   EXPECT_THAT(refusal("+sparkle"), testing::AllOf(testing::HasSubstr("'sparkle'"), testing::HasSubstr("area_lights")));
   EXPECT_THAT(refusal("interreflection"), testing::HasSubstr("+ or -"));
-  EXPECT_THAT(refusal("+caustics", gilded), testing::HasSubstr("cannot simulate 'caustics'"));
+  EXPECT_THAT(refusal("+subsurface", gilded), testing::HasSubstr("cannot simulate 'subsurface'"));
   EXPECT_THAT(refusal("+motion_blur"), testing::HasSubstr("cannot simulate 'motion_blur'"));
   EXPECT_THAT(refusal("-bounces"), testing::HasSubstr("'bounces' cannot be switched off"));
   EXPECT_THAT(refusal("-interreflection,"), "no error");

@@ -1,5 +1,6 @@
 #include "effects/specialise.h"
 
+#include <array>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -143,11 +144,27 @@ TEST(Specialise, AnIesLightBecomesAPointOfTheSameFlux) {
   EXPECT_EQ(scene.lights[0].intensity, Spectrum(2.0F));
 }
 
+TEST(Specialise, FoldsTheGlossOfTheEffectsThatAreOff) {
+  Scene scene = scene_with_everything();
+  scene.materials.resize(3);
+  scene.materials[0] = {}, scene.materials[1] = {}, scene.materials[2] = {};
+  scene.materials[0].metallic = 1, scene.materials[0].roughness = 0.1F;
+  scene.materials[1].specular = 1, scene.materials[1].roughness = 0.8F;
+  scene.materials[2].specular = 1, scene.materials[2].clearcoat = 1;
+  const auto folded = [&](EffectSet off) {
+    const Scene made = specialise(scene, off);
+    return std::array{made.materials[0].folds_specular, made.materials[1].folds_specular, made.materials[2].folds_specular};
+  };
+  EXPECT_EQ(folded(0), (std::array{false, false, false}));
+  EXPECT_EQ(folded(bit_of(Effect::kCaustics)), (std::array{true, false, true}));
+  EXPECT_EQ(folded(bit_of(Effect::kGlossyInterreflection)), (std::array{false, true, false}));
+}
+
 TEST(Effects, IdsAndEffectsAreEachOthersInverse) {
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Effect::kCount); ++i) {
     EXPECT_EQ(effect_of(id_of(Effect{i})), Effect{i});
   }
-  EXPECT_EQ(effect_of("caustics"), Effect::kCount);
+  EXPECT_EQ(effect_of("subsurface"), Effect::kCount);
   EXPECT_EQ(effect_of(""), Effect::kCount);
 }
 

@@ -1,0 +1,77 @@
+#include "effects/specular_share.h"
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "support/small_scenes.h"
+
+namespace radfarm {
+namespace {
+
+Material with(float metallic, float specular, float roughness) {
+  Material m;
+  m.metallic = metallic, m.specular = specular, m.roughness = roughness;
+  return m;
+}
+
+TEST(IsSharp, AsksForALobeAndItsWidth) {
+  Scene scene;
+  EXPECT_FALSE(is_sharp(scene, with(0, 0, 0))) << "no lobe";
+  EXPECT_TRUE(is_sharp(scene, with(1, 0, .2F)));
+  EXPECT_FALSE(is_sharp(scene, with(1, 0, .6F)));
+  EXPECT_TRUE(is_sharp(scene, with(0, 1, .3F)));
+  Material varnished = with(0, 0, 1);
+  varnished.clearcoat = 1;
+  EXPECT_TRUE(is_sharp(scene, varnished));
+  Material glass = with(0, 0, 0);
+  glass.transmission = 1;
+  EXPECT_TRUE(is_sharp(scene, glass));
+}
+
+TEST(SpecularShares, OfDiffuseScenesAreExactlyNothing) {
+  const World world(test::own_scene("cornell"));
+  const SpecularShares shares = measure_specular_shares(world, 1);
+  EXPECT_EQ(shares.sharp.share, 0);
+  EXPECT_EQ(shares.sharp.at_most, 0);
+  EXPECT_EQ(shares.rough.at_most, 0);
+}
+
+TEST(SpecularShares, AreOfTheLightThatDiffuseSurfacesReflect) {
+  // effects/glowing_box: 4 of 24 m^2 are a mirror that sends all it has, 8 pi lm, to walls that receive 40 pi.
+  const World world(test::own_scene("effects/glowing_box"));
+  const SpecularShares shares = measure_specular_shares(world, 1);
+  EXPECT_NEAR(shares.sharp.share, 0.2, 0.01);
+  EXPECT_GT(shares.sharp.at_most, shares.sharp.share);
+  EXPECT_LT(shares.sharp.at_most, 0.21);
+  EXPECT_EQ(shares.rough.at_most, 0);
+}
+
+TEST(SpecularShares, AreBoundedWhereNoPathShowedAny) {
+  // A mirror that no light reaches.
+  Scene scene = test::own_scene("furnace");
+  Mesh hidden = scene.meshes[0];
+  for (Vec3& p : hidden.positions) p = p * 3.0F;  // around the closed box
+  hidden.material = static_cast<std::uint32_t>(scene.materials.size());
+  scene.materials.push_back(with(1, 0, 0));
+  scene.meshes.push_back(hidden);
+  Instance instance;
+  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+  scene.instances.push_back(instance);
+  const World world(std::move(scene));
+  const SpecularShares shares = measure_specular_shares(world, 1);
+  EXPECT_EQ(shares.sharp.share, 0);
+  EXPECT_GT(shares.sharp.at_most, 0);
+  EXPECT_LT(shares.sharp.at_most, 1e-3);
+}
+
+TEST(SpecularShares, HaveTheSameBitsForAnyNumberOfThreads) {
+  const World world(test::own_scene("effects/glass_sphere"));
+  const auto with_threads = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return measure_specular_shares(world, 3).sharp.share;
+  };
+  EXPECT_EQ(with_threads(1), with_threads(2));
+}
+
+}  // namespace
+}  // namespace radfarm
