@@ -122,13 +122,14 @@ TEST(RequestFlags, TheGatherIsOursOrThePapers) {
   EXPECT_THAT(error_of("--gather paper --integrator path-trace"), HasSubstr("--gather paper"));
 }
 
-TEST(RequestFlags, PhotonsAndRadiusAreOfPaths) {
+TEST(RequestFlags, PhotonsAndRadiusAreOfPathsAndGathers) {
   const Result<RenderRequest> request = parse("--integrator paths --photons 5000 --radius .1");
   ASSERT_TRUE(request) << request.error().message;
   EXPECT_EQ(request->photons, 5000U);
   EXPECT_EQ(request->radius, .1F);
-  EXPECT_THAT(error_of("--photons 5"), HasSubstr("--integrator paths"));
-  EXPECT_THAT(error_of("--integrator gather --radius 1"), HasSubstr("--integrator paths"));
+  EXPECT_EQ(parse("--integrator gather --radius 1")->radius, 1.0F);  // where the plan finds caustics
+  EXPECT_THAT(error_of("--integrator path-trace --photons 5"), HasSubstr("--integrator auto, gather"));
+  EXPECT_THAT(error_of("--integrator radiosity --radius 1"), HasSubstr("--integrator auto, gather"));
   EXPECT_THAT(error_of("--integrator paths --photons 0"), HasSubstr("--photons is 0"));
   EXPECT_THAT(error_of("--integrator paths --radius 0"), HasSubstr("--radius"));
 }

@@ -23,7 +23,7 @@ RunningStatistics sent(const World& world, bool specular_only) {
   const LightVertex vertex(world, hit, normalize(Vec3(.3F, 1, .2F)));
   RunningStatistics sum;
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    RandomSequence random(combine(i));
+    RandomSequence random(combine(1, i));
     const ScatteredLight light =
         scatter_light(vertex, Spectrum(1.0F), {random.uniform(), random.uniform(), {random.uniform(), random.uniform()}});
     sum.add(!specular_only || light.is_specular ? static_cast<double>(luminance(light.weight)) : 0);
