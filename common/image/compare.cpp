@@ -51,6 +51,24 @@ double relative_mean_squared_error(const RgbLayer& a, const RgbLayer& b, const C
   return sum / static_cast<double>(result.pixels);
 }
 
+/// Fills in all but the share, which is the region's sum of squares: returned.
+double add_region(const RgbLayer& a, const RgbLayer& b, int width, RegionError& region) {
+  double sum_a = 0, sum_b = 0, squares = 0, count = 0;
+  for (int y = region.y0; y < region.y1; ++y) {
+    for (int x = region.x0; x < region.x1; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      if (!is_finite(a.at(i)) || !is_finite(b.at(i))) continue;
+      const double ya = luminance(SpectrumD(a.at(i))), yb = luminance(SpectrumD(b.at(i)));
+      sum_a += ya, sum_b += yb, squares += (ya - yb) * (ya - yb), count += 1;
+    }
+  }
+  region.rmse = count > 0 ? std::sqrt(squares / count) : 0;
+  region.relative_rmse = count > 0 ? ratio(region.rmse, sum_b / count, 0) : 0;
+  region.ratio_of_means = ratio(sum_a, sum_b, 1);
+  region.share = squares;
+  return squares;
+}
+
 }  // namespace
 
 Result<Comparison> compare(const Image& a, const Image& b) {
@@ -78,6 +96,27 @@ Result<Comparison> compare(const Image& a, const Image& b) {
   result.channel_mean_ratio = {ratio(sums.a.r, sums.b.r, 1), ratio(sums.a.g, sums.b.g, 1), ratio(sums.a.b, sums.b.b, 1)};
   result.relmse = relative_mean_squared_error(rgb_a, rgb_b, result);
   return result;
+}
+
+Result<std::vector<RegionError>> compare_regions(const Image& a, const Image& b, int columns, int rows) {
+  RADFARM_TRY_STATUS(compare(a, b));
+  if (columns < 1 || rows < 1 || columns > a.width || rows > a.height) {
+    return fail(Code::kInvalidArgument, std::to_string(columns) + "x" + std::to_string(rows) + " regions of an image of " +
+                                            size_text(a) + ": at least 1, at most a region a pixel");
+  }
+  RADFARM_TRY(const RgbLayer rgb_a, rgb_layer(a));
+  RADFARM_TRY(const RgbLayer rgb_b, rgb_layer(b));
+  std::vector<RegionError> regions;
+  double all = 0;
+  for (int k = 0; k < columns * rows; ++k) {
+    const int column = k % columns, row = k / columns;
+    RegionError region{a.width * column / columns, a.height * row / rows, a.width * (column + 1) / columns,
+                       a.height * (row + 1) / rows, 0, 0, 1, 0};
+    all += add_region(rgb_a, rgb_b, a.width, region);
+    regions.push_back(region);
+  }
+  for (RegionError& region : regions) region.share = all > 0 ? region.share / all : 0;
+  return regions;
 }
 
 }  // namespace radfarm

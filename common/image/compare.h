@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "base/status.h"
 #include "image/image.h"
@@ -26,5 +27,18 @@ struct Comparison {
 
 /// INVALID_ARGUMENT when the sizes differ or one has no R, G, B.
 Result<Comparison> compare(const Image& a, const Image& b);
+
+/// A part of an image: pixels [x0, x1) x [y0, y1), how far it is from the reference, and its share of all squared error.
+struct RegionError {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  double rmse = 0;           // of luminance
+  double relative_rmse = 0;  // of the reference's mean there; 0 and infinite as in Comparison
+  double ratio_of_means = 1;
+  double share = 0;
+};
+
+/// The image in columns x rows parts of about the same size, row by row; pixels that are not finite enter none. Errors as
+/// compare(), and INVALID_ARGUMENT unless there are 1 to width columns and 1 to height rows.
+Result<std::vector<RegionError>> compare_regions(const Image& a, const Image& b, int columns, int rows);
 
 }  // namespace radfarm

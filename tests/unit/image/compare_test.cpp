@@ -55,5 +55,19 @@ TEST(Compare, SizesMustAgree) {
   EXPECT_EQ(compare(grey({std::nanf("")}), grey({1})).error().code, Code::kInvalidArgument);
 }
 
+TEST(CompareRegions, TellsWhereTheErrorIs) {
+  const Image a = grey({1, 1, 3, 5}), b = grey({1, 1, 2, 2});
+  const std::vector<RegionError> regions = compare_regions(a, b, 2, 1).value();
+  ASSERT_EQ(regions.size(), 2U);
+  EXPECT_EQ(regions[1].x0, 2);
+  EXPECT_EQ(regions[1].x1, 4);
+  EXPECT_EQ(regions[0].share, 0);
+  EXPECT_NEAR(regions[1].share, 1, 1e-12);
+  EXPECT_NEAR(regions[1].rmse, std::sqrt(5.0), 1e-12);
+  EXPECT_NEAR(regions[1].relative_rmse, std::sqrt(5.0) / 2, 1e-12);
+  EXPECT_NEAR(regions[1].ratio_of_means, 2, 1e-12);
+  EXPECT_EQ(compare_regions(a, b, 5, 1).error().code, Code::kInvalidArgument);
+}
+
 }  // namespace
 }  // namespace radfarm
