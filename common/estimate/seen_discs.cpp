@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/parallel.h"
+#include "paths/photon_map.h"
 #include "paths/radius.h"
 
 namespace radfarm {
@@ -104,6 +106,45 @@ SeenDiscs see_all(const World& world, const Components& components, const Film& 
   return all;
 }
 
+std::vector<float> radii_of(const World& world, const Components& components, const SeenDiscs& seen, std::uint64_t seed,
+                            const SeenDiscSettings& settings) {
+  const PathBatch paths{seed, 0, settings.photons};
+  const auto crossings = static_cast<double>(settings.crossings);
+  const float most = kMostRadius * world.radius;
+  return settings.is_map
+             ? radii_by_nearest(world, seen.discs, settings.origins, paths, crossings, seen.footprints, most)
+             : radii_by_pilot(world, components, seen.discs, settings.origins, paths, crossings, seen.footprints, most);
+}
+
+/// Radiance that a batch brings pixels by their discs.
+class PixelLight {
+ public:
+  PixelLight(std::span<const ShownDisc> shown, std::size_t pixels) : shown_(shown), sums_(pixels) {}
+
+  void add(std::uint32_t disc, const Spectrum& power, Origin origin, double area) {
+    Sums& pixel = sums_[shown_[disc].pixel];
+    SpectrumD& part =
+        origin == Origin::kEmitter ? pixel.direct : (origin == Origin::kDiffuse ? pixel.indirect : pixel.specular);
+    part += SpectrumD(power) * SpectrumD(shown_[disc].weight) * (1 / area);
+  }
+
+  PhotonResult result(std::uint64_t paths) const {
+    PhotonResult result;
+    result.paths = paths;
+    result.pixels.reserve(sums_.size());
+    for (const Sums& s : sums_)
+      result.pixels.push_back({Spectrum(s.direct), Spectrum(s.indirect), Spectrum(s.specular)});
+    return result;
+  }
+
+ private:
+  struct Sums {
+    SpectrumD direct, indirect, specular;
+  };
+  const std::span<const ShownDisc> shown_;
+  std::vector<Sums> sums_;
+};
+
 }  // namespace
 
 SeenDiscs see_discs(const World& world, const Components& components, const Film& film,
@@ -112,9 +153,7 @@ SeenDiscs see_discs(const World& world, const Components& components, const Film
   if (settings.radius > 0) {
     for (Disc& disc : seen.discs) disc.shape.radius = settings.radius;
   } else if (world.emitters.size() > 0) {
-    const std::vector<float> radii =
-        radii_by_pilot(world, components, seen.discs, settings.origins, {film.seed, 0, settings.photons},
-                       static_cast<double>(settings.crossings), seen.footprints, kMostRadius * world.radius);
+    const std::vector<float> radii = radii_of(world, components, seen, film.seed, settings);
     for (std::size_t i = 0; i < radii.size(); ++i) seen.discs[i].shape.radius = radii[i];
   }
   return seen;
@@ -122,24 +161,26 @@ SeenDiscs see_discs(const World& world, const Components& components, const Film
 
 PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const ShownDisc> shown, std::size_t pixels,
                          OriginSet origins, const PathBatch& batch) {
-  struct Sums {
-    SpectrumD direct, indirect, specular;
-  };
-  std::vector<Sums> sums(pixels);
+  PixelLight light(shown, pixels);
   SeeCrossings see;
   see.crossing = [&](const Segment& segment, std::uint32_t disc, const CountedArea& area) {
-    Sums& pixel = sums[shown[disc].pixel];
-    SpectrumD& part = segment.origin == Origin::kEmitter
-                          ? pixel.direct
-                          : (segment.origin == Origin::kDiffuse ? pixel.indirect : pixel.specular);
-    part += SpectrumD(segment.power) * SpectrumD(shown[disc].weight) * (1 / area.whole);
+    light.add(disc, segment.power, segment.origin, area.whole);
   };
-  PhotonResult result;
-  result.paths = batch.paths;
   if (world.emitters.size() > 0) each_crossing(world, set, origins, batch, see);
-  result.pixels.reserve(pixels);
-  for (const Sums& s : sums) result.pixels.push_back({Spectrum(s.direct), Spectrum(s.indirect), Spectrum(s.specular)});
-  return result;
+  return light.result(batch.paths);
+}
+
+PhotonResult bring_photons(const World& world, const SeenDiscs& seen, std::size_t pixels, OriginSet origins,
+                           const PathBatch& batch) {
+  PixelLight light(seen.shown, pixels);
+  if (!(world.emitters.size() > 0)) return light.result(batch.paths);
+  const PhotonMap map(photons_of(world, origins, batch));
+  for (std::uint32_t i = 0; i < seen.discs.size(); ++i) {
+    const OrientedDisc& disc = seen.discs[i].shape;
+    const double area = std::numbers::pi * static_cast<double>(disc.radius) * static_cast<double>(disc.radius);
+    map.each_near(disc, [&](const Photon& photon) { light.add(i, photon.power, photon.origin, area); });
+  }
+  return light.result(batch.paths);
 }
 
 RadianceParts unlit_radiance(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters,

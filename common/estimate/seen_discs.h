@@ -29,6 +29,7 @@ struct SeenDiscSettings {
   float radius = 0;            // m, of all; 0: each as wide as brings it `crossings` of the paths
   float crossings = 400;
   OriginSet origins = kAllOrigins;
+  bool is_map = false;  // `crossings` are photons: for bring_photons()
 };
 
 /// Follows the eye chains of every pixel, then a pilot of light paths that decides radii: between the pixel's footprint
@@ -40,6 +41,10 @@ SeenDiscs see_discs(const World& world, const Components& components, const Film
 /// What a batch of light paths brings each pixel by its discs.
 PhotonResult bring_light(const World& world, const DiscSet& set, std::span<const ShownDisc> shown, std::size_t pixels,
                          OriginSet origins, const PathBatch& batch);
+
+/// What the photons that a batch of light paths leaves bring each pixel. (map.1) Keeps them, 40 bytes each.
+PhotonResult bring_photons(const World& world, const SeenDiscs& seen, std::size_t pixels, OriginSet origins,
+                           const PathBatch& batch);
 
 /// An eye chain that sees no light on diffuse surfaces: emission, highlights, what mirrors show of emitters.
 RadianceParts unlit_radiance(const World& world, const Ray& ray, const PixelSampler& sampler, Counters& counters,

@@ -11,7 +11,7 @@ namespace radfarm {
 /// Everything that decides an image's bits besides scene and camera: what --quality and the flags resolve to. Recorded in
 /// the report and in the image's header, so that a render can be replayed exactly. Stored as it is; no padding.
 struct Settings {
-  enum class Integrator : std::uint32_t { kGather = 0, kPathTrace = 1, kRadiosity = 2, kPaths = 3 };
+  enum class Integrator : std::uint32_t { kGather = 0, kPathTrace = 1, kRadiosity = 2, kPaths = 3, kPhotonMap = 4 };
   Integrator integrator = Integrator::kGather;
   std::int32_t width = 0;
   std::int32_t height = 0;
@@ -30,10 +30,13 @@ struct Settings {
   std::uint16_t shares_light = 0;        // 1: like pixels share direct and indirect light (sharing/share_light.h)
   std::uint32_t photon_batches = 0;
   std::uint32_t photon_origins = 0;      // OriginSet: the light that they bring
-  float photon_radius = 0;               // m, of all discs; 0: each as wide as brings it `photon_crossings`
+  float photon_radius = 0;               // m, of all discs; 0: each as wide as brings it `photon_crossings` (photons, of a map)
   float photon_crossings = 0;
   RadiositySettings radiosity;
   SenderSettings senders;
+
+  /// Whether photon tasks bring the light of diffuse surfaces.
+  bool is_by_photons() const { return integrator == Integrator::kPaths || integrator == Integrator::kPhotonMap; }
 };
 static_assert(sizeof(Settings) == 84 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
 

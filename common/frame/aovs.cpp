@@ -28,7 +28,7 @@ AovSet given_by(const RenderRequest& request) {
                set_of(Aov::kCameraSamples) | set_of(Aov::kVisibilitySamples);
   // One sample has no variance.
   if (request.samples != 1) set |= set_of(Aov::kVariance);
-  const bool is_paths = request.integrator == Integrator::kPaths;
+  const bool is_paths = request.integrator == Integrator::kPaths || request.integrator == Integrator::kPhotonMap;
   if (is_paths) set &= ~set_of(Aov::kIrradiance);  // known of discs, not of what one ray sees
   const bool has_grid = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity && !is_paths;
   if (has_grid) set |= set_of(Aov::kFormFactorSamples) | set_of(Aov::kClassification) | set_of(Aov::kGrid) | set_of(Aov::kMasking);

@@ -58,6 +58,7 @@ const char* name_of(Settings::Integrator integrator) {
     case Settings::Integrator::kPathTrace: return "path-trace";
     case Settings::Integrator::kRadiosity: return "radiosity";
     case Settings::Integrator::kPaths: return "paths";
+    case Settings::Integrator::kPhotonMap: return "photon-map";
   }
   return "";
 }
@@ -78,7 +79,7 @@ json to_json(const Settings& s) {
               {"audit_samples", s.audit_samples},
               {"effects_off", s.effects_off}};
   if (s.aovs != 0) out["aov"] = aov_names(s.aovs);
-  if (s.integrator == Settings::Integrator::kPaths) {
+  if (s.photons > 0) {
     out["photons"] = {{"paths", s.photons}, {"batches", s.photon_batches}, {"radius", s.photon_radius}, {"crossings", s.photon_crossings}};
     return out;
   }

@@ -29,6 +29,7 @@ constexpr std::array kIntegrators = {
     Name<Integrator>{Integrator::kFullGather, "full-gather"},
     Name<Integrator>{Integrator::kPathTrace, "path-trace"},
     Name<Integrator>{Integrator::kPaths, "paths"},
+    Name<Integrator>{Integrator::kPhotonMap, "photon-map"},
 };
 constexpr std::array kQualities = {
     Name<Quality>{Quality::kPreview, "preview"},

@@ -19,7 +19,7 @@ namespace radfarm {
 /// What a person asked for, as given: the flags of `radfarm render` that shape the image. prepare() turns it into resolved
 /// settings. Its JSON form crosses the network; docs/protocol.md lists the keys.
 struct RenderRequest {
-  enum class Integrator { kAuto, kRadiosity, kGather, kFullGather, kPathTrace, kPaths };
+  enum class Integrator { kAuto, kRadiosity, kGather, kFullGather, kPathTrace, kPaths, kPhotonMap };
   enum class Quality { kPreview, kStandard, kHigh, kReference };
   enum class UpAxis { kY, kZ };
 
@@ -47,8 +47,8 @@ struct RenderRequest {
   std::optional<float> link_error;        // largest share of all light that a link may misplace; by default from quality
   std::optional<float> threshold;         // largest accepted change of radiance, cd/m^2; by default from quality
   Oracle oracle = LinkOracle().criterion;  // what judges the links of the radiosity solve
-  std::optional<std::uint64_t> photons;    // light paths of --integrator paths; by default from quality
-  std::optional<float> radius;            // metres, of its discs; by default by how many paths cross
+  std::optional<std::uint64_t> photons;    // light paths of --integrator paths and photon-map; by default from quality
+  std::optional<float> radius;            // metres, of their discs; by default by how many paths cross, or photons lie, there
   bool audit = true;
   bool sharing = true;                    // whether like pixels share light, where the integrator lets them (sharing/share_light.h)
   bool mesh = false;                      // radiosity only: draws the edges of the elements; such an image is not audited

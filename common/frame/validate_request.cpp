@@ -77,10 +77,14 @@ Status check_effects(std::string_view effects) {
   return {};
 }
 
+bool has_photons(const RenderRequest& request) {
+  return request.integrator == Integrator::kPaths || request.integrator == Integrator::kPhotonMap;
+}
+
 Status check_photons(const RenderRequest& request) {
   const bool has_paths = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity;
   if ((request.photons || request.radius) && !has_paths) {
-    return invalid("--photons and --radius are of photon paths: they need --integrator auto, gather, full-gather or paths");
+    return invalid("--photons and --radius are of photon paths: they need --integrator auto, gather, full-gather, paths or photon-map");
   }
   if (request.photons && !(*request.photons >= 1 && *request.photons <= kMaxPhotons)) {
     return invalid("--photons is " + std::to_string(*request.photons) + ", must be between 1 and " +
@@ -115,7 +119,7 @@ Status validate(const RenderRequest& request) {
   }
   RADFARM_TRY_STATUS(check_photons(request));
   const bool is_gather = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity &&
-                         request.integrator != Integrator::kPaths;
+                         !has_photons(request);
   if (request.gather == Gather::kPaper && !is_gather) {
     return invalid("--gather paper is a way to gather: it needs --integrator auto, gather or full-gather");
   }

@@ -4,12 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/random.h"
-
 namespace radfarm {
 namespace {
-
-constexpr std::uint64_t kPathKey = 0x70686f746f6e;  // "photon"
 
 struct Query {
   Crossing& crossing;
@@ -63,15 +59,9 @@ PathLosses each_crossing(const World& world, const DiscSet& discs, OriginSet ori
     Query query{crossing, segment, see};
     discs.caster().crossed(segment.ray, segment.begin, crossing.far(), cross, &query);
   };
-  const std::uint64_t key = combine(batch.seed, kPathKey, batch.batch);
-  PathLosses losses;
-  for (std::uint64_t i = 0; i < batch.paths; ++i) {
-    const PathLosses one = follow_path(world, key, i, see_segment);
+  return follow_batch(world, batch, see_segment, [&] {
     if (see.end_path) see.end_path();
-    losses.absorbed += one.absorbed;
-    losses.escaped += one.escaped;
-  }
-  return losses;
+  });
 }
 
 PathLosses add_batch(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,

@@ -26,20 +26,15 @@ struct DiscSums {
   friend bool operator==(const DiscSums&, const DiscSums&) = default;
 };
 
-/// Light paths that share one scrambled sequence; batches of one seed are independent of each other.
-struct PathBatch {
-  std::uint64_t seed = 1;
-  std::uint64_t batch = 0;
-  std::uint64_t paths = 0;
-};
-
 /// Who is shown where the segments of a path cross discs, and where the path ends.
 struct SeeCrossings {
   std::function<void(const Segment&, std::uint32_t disc, const CountedArea&)> crossing;
   std::function<void()> end_path;  // may be empty
 };
 
-/// Shows where segments of a batch's paths, of the classes in `origins`, count at discs, path by path. docs/pipeline.md (paths.2) On the caller's thread. Requires: emitters.size() > 0. Cost: a few us a segment, and what is crossed.
+/// Shows where segments of a batch's paths, of the classes in `origins`, count at discs, path by path.
+///                                                                             docs/pipeline.md (paths.2)
+/// On the caller's thread. Requires: emitters.size() > 0. Cost: about 1 us a segment, and as much a crossing.
 PathLosses each_crossing(const World& world, const DiscSet& discs, OriginSet origins, const PathBatch& batch,
                          const SeeCrossings& see, const CrossingRules& rules = {});
 

@@ -11,6 +11,7 @@
 namespace radfarm {
 namespace {
 
+constexpr std::uint64_t kPathKey = 0x70686f746f6e;  // "photon"
 // 1 would let a path go on without end where nothing absorbs.
 constexpr float kMaxSurvival = 0.9999F;
 
@@ -107,6 +108,19 @@ PathLosses follow_path(const World& world, std::uint64_t key, std::uint64_t inde
   while (follower.step(segment)) {
   }
   return follower.losses();
+}
+
+PathLosses follow_batch(const World& world, const PathBatch& batch, const SeeSegment& see,
+                        const std::function<void()>& end_path) {
+  const std::uint64_t key = combine(batch.seed, kPathKey, batch.batch);
+  PathLosses losses;
+  for (std::uint64_t i = 0; i < batch.paths; ++i) {
+    const PathLosses one = follow_path(world, key, i, see);
+    end_path();
+    losses.absorbed += one.absorbed;
+    losses.escaped += one.escaped;
+  }
+  return losses;
 }
 
 }  // namespace radfarm

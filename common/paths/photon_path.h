@@ -49,4 +49,15 @@ using SeeSegment = std::function<void(const Segment&)>;
 /// again. 64 bits of index. Requires: emitters.size() > 0. Cost: about 1 us a segment.
 PathLosses follow_path(const World& world, std::uint64_t key, std::uint64_t index, const SeeSegment& see);
 
+/// Light paths that share one scrambled sequence; batches of one seed are independent of each other.
+struct PathBatch {
+  std::uint64_t seed = 1;
+  std::uint64_t batch = 0;
+  std::uint64_t paths = 0;
+};
+
+/// Follows the paths of a batch one after the other, and calls `end_path` after each. On the caller's thread.
+PathLosses follow_batch(const World& world, const PathBatch& batch, const SeeSegment& see,
+                        const std::function<void()>& end_path);
+
 }  // namespace radfarm

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "paths/photon_map.h"
 
 namespace radfarm {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 constexpr std::uint64_t kPilotKey = 0x70696c6f74;  // "pilot"
 constexpr std::uint64_t kPilotShare = 64;
 constexpr std::uint64_t kPilotBatches = 8;
+constexpr double kPilotNearest = 12;  // photons: a radius within 15 %
+constexpr std::size_t kGrain = 256;
 
 /// What batches of so many paths each brought each disc.
 std::vector<DiscSums> run_pilot(const World& world, const DiscSet& set, OriginSet origins, std::uint64_t seed,
@@ -25,6 +28,17 @@ std::vector<DiscSums> run_pilot(const World& world, const DiscSet& set, OriginSe
     for (std::size_t i = 0; i < parts[b].size(); ++i) parts[0][i] += parts[b][i];
   }
   return std::move(parts[0]);
+}
+
+/// The photons of a pilot in batches of so many paths each.
+std::vector<Photon> photons_of_pilot(const World& world, OriginSet origins, std::uint64_t seed, std::uint64_t each) {
+  std::vector<std::vector<Photon>> parts(kPilotBatches);
+  parallel_for(kPilotBatches, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) parts[b] = photons_of(world, origins, {seed, b, each});
+  });
+  std::vector<Photon> all;
+  for (const std::vector<Photon>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 }  // namespace
@@ -48,6 +62,25 @@ std::vector<float> radii_by_pilot(const World& world, const Components& componen
     radii.push_back(choose_radius(set.discs()[i], pilot[i], static_cast<double>(each * kPilotBatches),
                                   static_cast<double>(paths.paths), {crossings, least[i], most}));
   }
+  return radii;
+}
+
+std::vector<float> radii_by_nearest(const World& world, std::span<const Disc> discs, OriginSet origins,
+                                    const PathBatch& paths, double nearest, std::span<const float> least, float most) {
+  const double counted = std::min(nearest, kPilotNearest);
+  const auto each = std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(static_cast<double>(paths.paths) * counted / nearest) / kPilotBatches);
+  const PhotonMap map(photons_of_pilot(world, origins, combine(paths.seed, kPilotKey), each));
+  const double area = nearest / counted * static_cast<double>(each * kPilotBatches) / static_cast<double>(paths.paths);
+  std::vector<float> radii(discs.size());
+  parallel_for(discs.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const OrientedDisc widest{discs[i].shape.centre, discs[i].shape.normal, most};
+      const float found = map.distance_of(static_cast<std::size_t>(std::ceil(counted)), widest);
+      const float radius = found < most ? found * static_cast<float>(std::sqrt(area)) : most;
+      radii[i] = std::clamp(radius, std::min(least[i], most), most);
+    }
+  });
   return radii;
 }
 

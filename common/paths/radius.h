@@ -24,6 +24,11 @@ std::vector<float> radii_by_pilot(const World& world, const Components& componen
                                   OriginSet origins, const PathBatch& paths, double crossings,
                                   std::span<const float> least, float most);
 
+/// The same of a photon map: at which it has `nearest` photons, by the 12 nearest in a smaller pilot's; m. (map.2)
+/// Requires: emitters, nearest > 0. Uses all threads.
+std::vector<float> radii_by_nearest(const World& world, std::span<const Disc> discs, OriginSet origins,
+                                    const PathBatch& paths, double nearest, std::span<const float> least, float most);
+
 /// How wide discs are where nobody says: the scene's radius times this at most.
 inline constexpr float kMostRadius = 1.0F / 50;
 

@@ -61,7 +61,7 @@ ExpectedCost expect_cost(const World& world, const Camera& camera, const Setting
     return cost;
   }
   const double light = photon_seconds(settings, pilot);
-  if (settings.integrator == Settings::Integrator::kPaths) {
+  if (settings.is_by_photons()) {
     cost.low = 0.5 * light + samples * pilot.ray_seconds + cost.audit;
     cost.high = 3 * light + 20 * samples * pilot.ray_seconds + cost.audit;
     return cost;

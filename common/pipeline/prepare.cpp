@@ -55,7 +55,7 @@ Status refuse_trapped(const World& world, const TrappedLight& trapped) {
 
 /// Whether all light is carried by paths, and none by a radiosity solution.
 bool follows_paths(const Settings& settings) {
-  return settings.integrator == Settings::Integrator::kPathTrace || settings.integrator == Settings::Integrator::kPaths;
+  return settings.integrator == Settings::Integrator::kPathTrace || settings.is_by_photons();
 }
 
 /// A scene without light, or with light that can never be lost, has no image.

@@ -65,8 +65,8 @@ Result<ObtainedLight> obtain_light(const World& world, const PlannedView& planne
 Result<PreparedLight> prepare_light(const World& world, const PlannedView& planned, StageClock& clock) {
   PreparedLight light;
   light.view = planned.view;
-  const Settings::Integrator integrator = light.view.settings.integrator;
-  if (integrator == Settings::Integrator::kPathTrace || integrator == Settings::Integrator::kPaths) return light;
+  const Settings& settings = light.view.settings;
+  if (settings.integrator == Settings::Integrator::kPathTrace || settings.is_by_photons()) return light;
   RADFARM_TRY(ObtainedLight obtained, obtain_light(world, planned, form_of(planned.request)));
   const SolvedLight::Facts& facts = obtained.light.facts;
   light.counts = {{"links", facts.links}, {"elements", facts.elements}, {"radiosity_iterations", facts.iterations}};

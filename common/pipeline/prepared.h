@@ -33,12 +33,12 @@ struct LitView {
   std::optional<ElementMesh> mesh;    // of the integrator radiosity
   std::optional<SideNumbers> sides;   // with it
 
-  /// What photon tasks count paths at: made when one first asks.
+  /// Where photon tasks count paths, or the photons that these leave: made when one first asks.
   struct Photons {
     Photons(const LitView& lit, const Film& film);
     const Components components;
     const SeenDiscs seen;
-    const DiscSet set;
+    std::optional<DiscSet> set;  // for paths
   };
   const Photons& photons(const Film& film) const;
   mutable std::once_flag has_photons;

@@ -68,6 +68,7 @@ Settings::Integrator integrator_of(const RenderRequest& request) {
   switch (request.integrator) {
     case RenderRequest::Integrator::kPathTrace: return Settings::Integrator::kPathTrace;
     case RenderRequest::Integrator::kPaths: return Settings::Integrator::kPaths;
+    case RenderRequest::Integrator::kPhotonMap: return Settings::Integrator::kPhotonMap;
     case RenderRequest::Integrator::kRadiosity: return Settings::Integrator::kRadiosity;
     default: return Settings::Integrator::kGather;
   }
@@ -181,7 +182,7 @@ Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
   }
   settings.senders.threshold_scale = is_full || request.threshold ? 0 : quality.threshold_scale;
   settings.senders.threshold = is_full ? 0 : request.threshold.value_or(0);
-  if (settings.integrator == Settings::Integrator::kPaths) resolve_photons(request, kAllOrigins, 1, settings);
+  if (settings.is_by_photons()) resolve_photons(request, kAllOrigins, 1, settings);
   return settings;
 }
 

@@ -52,7 +52,7 @@ SampleEmission emission_integrator(const LitView& lit) {
 
 SampleRadiance integrator(const LitView& lit, const Film& film) {
   if (lit.mesh) return gouraud_integrator(lit, film);
-  if (lit.view.settings.integrator == Settings::Integrator::kPaths) {
+  if (lit.view.settings.is_by_photons()) {
     return [&lit](const Ray& ray, const PixelSampler& sampler, Counters& counters, FirstSurface* first) {
       return unlit_radiance(lit.world, ray, sampler, counters, first);
     };
@@ -90,12 +90,20 @@ std::vector<std::byte> run_tile(const LitView& lit, std::uint32_t index) {
   return encode(result);
 }
 
+SeenDiscSettings seen_disc_settings(const Settings& settings) {
+  SeenDiscSettings discs{std::min(settings.camera_samples, kMostDiscSamples), settings.photons, settings.photon_radius,
+                         settings.photon_crossings, settings.photon_origins};
+  discs.is_map = settings.integrator == Settings::Integrator::kPhotonMap;
+  return discs;
+}
+
 std::vector<std::byte> run_photons(const LitView& lit, std::uint32_t batch) {
   const Settings& settings = lit.view.settings;
   const LitView::Photons& photons = lit.photons(film_of(lit.view, settings.effects_off));
   const std::size_t pixels = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
-  return encode(bring_light(lit.world, photons.set, photons.seen.shown, pixels, settings.photon_origins,
-                            {settings.seed, batch, paths_of_batch(settings, batch)}));
+  const PathBatch paths{settings.seed, batch, paths_of_batch(settings, batch)};
+  return encode(photons.set ? bring_light(lit.world, *photons.set, photons.seen.shown, pixels, settings.photon_origins, paths)
+                            : bring_photons(lit.world, photons.seen, pixels, settings.photon_origins, paths));
 }
 
 std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t index) {
@@ -147,11 +155,9 @@ const World& Prepared::Parts::audited() const {
 }
 
 LitView::Photons::Photons(const LitView& lit, const Film& film)
-    : components(lit.world.scene),
-      seen(see_discs(lit.world, components, film,
-                     {std::min(lit.view.settings.camera_samples, kMostDiscSamples), lit.view.settings.photons,
-                      lit.view.settings.photon_radius, lit.view.settings.photon_crossings, lit.view.settings.photon_origins})),
-      set(lit.world, components, seen.discs) {}
+    : components(lit.world.scene), seen(see_discs(lit.world, components, film, seen_disc_settings(lit.view.settings))) {
+  if (lit.view.settings.integrator != Settings::Integrator::kPhotonMap) set.emplace(lit.world, components, seen.discs);
+}
 
 const LitView::Photons& LitView::photons(const Film& film) const {
   std::call_once(has_photons, [&] { seen_photons.emplace(*this, film); });
@@ -169,8 +175,7 @@ Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<cons
   RADFARM_TRY(Scene decoded, decode_scene(scene));
   auto parts = std::make_unique<Parts>(views[0].settings, std::move(decoded));
   std::vector<std::span<const std::byte>> solutions(views.size());
-  const Settings::Integrator integrator = parts->settings.integrator;
-  if (integrator != Settings::Integrator::kPathTrace && integrator != Settings::Integrator::kPaths) {
+  if (parts->settings.integrator != Settings::Integrator::kPathTrace && !parts->settings.is_by_photons()) {
     RADFARM_TRY(solutions, decode_solutions(solution, views.size()));
   }
   for (std::size_t i = 0; i < views.size(); ++i) {

@@ -9,7 +9,7 @@ namespace radfarm::cli {
 struct PlotPoint {
   double x = 0, y = 0;
   double low = 0, high = 0;
-  std::string label;  // shown when pointed at
+  std::string label = {};  // shown when pointed at
 };
 
 struct PlotCurve {

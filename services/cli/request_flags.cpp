@@ -90,11 +90,11 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--orthographic", flags.orthographic, "parallel view this many metres high, instead of --fov");
   app.add_option("--size", flags.size, "WIDTHxHEIGHT in pixels; default 640 wide at the camera's aspect");
   app.add_option("--up", flags.up, "Y or Z: which axis of an OBJ file points up");
-  app.add_option("--integrator", flags.integrator, "auto, radiosity, gather, full-gather, paths (photon paths carry all light) or path-trace");
+  app.add_option("--integrator", flags.integrator, "auto, radiosity, gather, full-gather, paths (photon paths carry all light), photon-map (for comparison) or path-trace");
   app.add_option("--quality", flags.quality, "preview, standard, high or reference");
   app.add_option("--oracle", flags.oracle, "KS, KL, CS, HE or VAR: what judges the links of radiosity; docs/radiosity.md");
   app.add_option("--samples", flags.samples, "camera samples a pixel; default from --quality");
-  app.add_option("--photons", flags.photons, "light paths: of --integrator paths, and of a gather where the scene has caustics; default from --quality");
+  app.add_option("--photons", flags.photons, "light paths: of --integrator paths and photon-map, and of a gather where the scene has caustics; default from --quality");
   app.add_option("--radius", flags.radius, "metres, of the discs that count them; default by how many cross");
   app.add_option("--link-error", flags.link_error,
                  "largest share of all light that one radiosity link may misplace; default from --quality");

@@ -13,7 +13,6 @@ struct Unbuilt {
 constexpr std::array kUnbuilt = {
     Unbuilt{"--error", "", "use --quality; the audit tells the error that it gave"},
     Unbuilt{"--time", "", "use --quality"},
-    Unbuilt{"--integrator", "photon-map", "use auto, radiosity, gather, full-gather, paths or path-trace"},
     Unbuilt{"--criterion", "CC", "use uniform"},
     Unbuilt{"--criterion", "VAR", "use uniform"},
     Unbuilt{"--criterion", "KL", "use uniform"},

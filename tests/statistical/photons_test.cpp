@@ -77,6 +77,48 @@ TEST(Photons, TheSameBitsForAnyTilesAndThreads) {
   EXPECT_NE(image_digest(render("cornell", reseeded).image), digest);
 }
 
+RenderRequest photon_map(std::uint64_t photons) {
+  RenderRequest request = paths(photons);
+  request.integrator = RenderRequest::Integrator::kPhotonMap;
+  return request;
+}
+
+TEST(PhotonMap, AgreesWithPathTracingOnAFlatFloor) {
+  RenderRequest::PlacedCamera above;
+  above.eye = {0, 1.5, 0};
+  above.look_at = {0, 0, 0};
+  above.up_vector = {0, 0, -1};
+  RenderRequest request = photon_map(400000), reference = request_of(RenderRequest::Integrator::kPathTrace);
+  request.camera = reference.camera = above;
+  const double truth = mean(render("point_light", reference).image, "direct.G");
+  EXPECT_GT(truth, 0);
+  // 43 photons a disc at 576 pixels, and the falling off of a lamp 2 m above within .14 m: .5 % and .3 %.
+  EXPECT_NEAR(mean(render("point_light", request).image, "direct.G"), truth, .02 * truth);
+  request.radius = .2F;
+  EXPECT_NEAR(mean(render("point_light", request).image, "direct.G"), truth, .02 * truth);
+}
+
+TEST(PhotonMap, TheSameBitsForAnyTilesAndThreads) {
+  const RenderRequest request = photon_map(20000);
+  RenderRequest other = request;
+  other.tile = 5;
+  const std::string digest = image_digest(render("cornell", request).image);
+  EXPECT_EQ(image_digest(render("cornell", other, 2).image), digest);
+  EXPECT_NE(image_digest(render("cornell", paths(20000)).image), digest);
+}
+
+TEST(PhotonMap, IsDarkerThanTheTruthWhereSurfacesMeet) {
+  // Cornell: all of it within a few percent, less than the truth, for edges lose light.
+  RenderRequest reference = request_of(RenderRequest::Integrator::kPathTrace);
+  reference.samples = 256;
+  const Finished photons = render("cornell", photon_map(400000)), traced = render("cornell", reference);
+  for (const char* layer : {"direct.G", "indirect.G"}) {
+    const double share = mean(photons.image, layer) / mean(traced.image, layer);
+    EXPECT_LT(share, 1) << layer;
+    EXPECT_GT(share, .85) << layer;
+  }
+}
+
 TEST(Photons, OnePathIsEnoughForAnImage) {
   const Finished finished = render("cornell", paths(1));
   for (const auto& [name, values] : finished.image.channels) {

@@ -130,14 +130,14 @@ TEST(RequestFlags, PhotonsAndRadiusAreOfPathsAndGathers) {
   EXPECT_EQ(parse("--integrator gather --radius 1")->radius, 1.0F);  // where the plan finds caustics
   EXPECT_THAT(error_of("--integrator path-trace --photons 5"), HasSubstr("--integrator auto, gather"));
   EXPECT_THAT(error_of("--integrator radiosity --radius 1"), HasSubstr("--integrator auto, gather"));
+  EXPECT_EQ(parse("--integrator photon-map --photons 5000")->integrator, RenderRequest::Integrator::kPhotonMap);
   EXPECT_THAT(error_of("--integrator paths --photons 0"), HasSubstr("--photons is 0"));
   EXPECT_THAT(error_of("--integrator paths --radius 0"), HasSubstr("--radius"));
 }
 
 TEST(RequestFlags, WhatIsNotBuiltIsRefusedAndNotIgnored) {
   for (const char* line : {"--error 2%", "--time 60s",
-                           "--aov density", "--criterion KL",
-                           "--integrator photon-map"}) {
+                           "--aov density", "--criterion KL"}) {
     const Result<RenderRequest> request = parse(line);
     ASSERT_FALSE(request) << line;
     EXPECT_EQ(request.error().code, Code::kUnimplemented) << line;
