@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "cli/report_page.h"
 #include "frame/aov_picture.h"
 #include "frame/aovs.h"
 #include "frame/light_layers.h"
@@ -41,6 +42,16 @@ Status write_png(std::span<const std::byte> exr, const Outputs& outputs) {
   RADFARM_TRY(const float exposure, exposure_of(image, outputs));
   RADFARM_TRY(const std::vector<std::byte> png, encode_png(image, exposure));
   return write_file_atomically(outputs.png, png);
+}
+
+Status write_report(const nlohmann::json& report, std::span<const std::byte> exr, const Outputs& outputs) {
+  if (outputs.report.extension() == ".json") {
+    return write_file_atomically(outputs.report, report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  }
+  RADFARM_TRY(const Image image, decode_exr(exr));
+  RADFARM_TRY(const float exposure, exposure_of(image, outputs));
+  RADFARM_TRY(const std::vector<std::byte> png, encode_png(image, exposure));
+  return write_file_atomically(outputs.report, report_page(report, png));
 }
 
 /// FOLDER/light.NAME.png of each light group, all at the exposure of the whole image.
@@ -119,7 +130,7 @@ void add_output_flags(CLI::App& app, Outputs& outputs) {
   app.add_option("--png", outputs.png, "OUT.png: for viewing");
   app.add_option("--exposure", outputs.exposure, "EV (stops) or auto, for --png and the light groups of --aov-png");
   app.add_option("--aov-png", outputs.aov_png, "FOLDER for a NAME.png of each layer of --aov: false colours; light.NAME exposed as the image");
-  app.add_option("--report", outputs.report, "OUT.json: settings, effects, times, counts, measured error");
+  app.add_option("--report", outputs.report, "OUT.json or OUT.html: settings, effects, times, counts, measured error");
 }
 
 Status check_usage(const Outputs& outputs) {
@@ -129,11 +140,9 @@ Status check_usage(const Outputs& outputs) {
   if (!outputs.png.empty() && outputs.png.extension() != ".png") {
     return fail(Code::kInvalidArgument, "--png: '" + outputs.png.string() + "' must end in .png");
   }
-  if (outputs.report.extension() == ".html") {
-    return fail(Code::kUnimplemented, "--report OUT.html is not built yet: use OUT.json");
-  }
-  if (!outputs.report.empty() && outputs.report.extension() != ".json") {
-    return fail(Code::kInvalidArgument, "--report: '" + outputs.report.string() + "' must end in .json");
+  const std::filesystem::path kind = outputs.report.extension();
+  if (!outputs.report.empty() && kind != ".json" && kind != ".html") {
+    return fail(Code::kInvalidArgument, "--report: '" + outputs.report.string() + "' must end in .json or .html");
   }
   RADFARM_TRY(const std::optional<float> exposure, parse_exposure(outputs.exposure));
   (void)exposure;
@@ -168,10 +177,7 @@ Result<nlohmann::json> deliver(FarmClient& client, const JobStatus& job, const O
   RADFARM_TRY_STATUS(write_file_atomically(outputs.exr, exr));
   if (!outputs.png.empty()) RADFARM_TRY_STATUS(write_png(exr, outputs));
   if (!outputs.aov_png.empty()) RADFARM_TRY_STATUS(write_aov_pictures(exr, outputs));
-  if (!outputs.report.empty()) {
-    const std::string dumped = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    RADFARM_TRY_STATUS(write_file_atomically(outputs.report, dumped));
-  }
+  if (!outputs.report.empty()) RADFARM_TRY_STATUS(write_report(report, exr, outputs));
   return report;
 }
 

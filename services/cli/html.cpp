@@ -11,6 +11,7 @@ h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .6em 0; }
 th, td { text-align: right; padding: .2em .7em; border-bottom: 1px solid #d8dee4; vertical-align: top; }
 th:first-child, td:first-child { text-align: left; }
+td.text { text-align: left; }
 img { max-width: 100%; image-rendering: auto; border: 1px solid #d8dee4; }
 figure { display: inline-block; margin: 0 1em 1em 0; } figcaption { font-size: .85em; color: #57606a; }
 .big { font-size: 1.25em; } .note { color: #57606a; } .best td { font-weight: 600; }

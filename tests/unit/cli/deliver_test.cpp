@@ -10,7 +10,8 @@ TEST(CheckUsage, WantsFilesOfTheRightKinds) {
   EXPECT_TRUE(check_usage({"a.exr", {}, {}, "auto"}));
   EXPECT_FALSE(check_usage({"a.png", {}, {}, "auto"}));
   EXPECT_FALSE(check_usage({"a.exr", "a.jpg", {}, "auto"}));
-  EXPECT_EQ(check_usage({"a.exr", {}, "a.html", "auto"}).error().code, Code::kUnimplemented);
+  EXPECT_TRUE(check_usage({"a.exr", {}, "a.html", "auto"}));
+  EXPECT_EQ(check_usage({"a.exr", {}, "a.txt", "auto"}).error().code, Code::kInvalidArgument);
   EXPECT_FALSE(check_usage({"a.exr", {}, {}, "bright"}));
   EXPECT_FALSE(check_usage({"a.exr", {}, {}, "nan"}));
 }
