@@ -30,7 +30,7 @@ int run(int argc, const char* const* argv) {
   app.set_version_flag("--version", std::string("radfarm ") + RADFARM_VERSION);
   Action action;
   for (const auto add :
-       {add_render, add_bake, add_measure, add_explain, add_info, add_compare, add_doctor, add_submit, add_jobs, add_programs}) {
+       {add_render, add_bake, add_measure, add_explain, add_info, add_compare, add_ladder, add_doctor, add_submit, add_jobs, add_programs}) {
     add(app, action);
   }
   try {

@@ -19,6 +19,8 @@ void add_bake(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+/// `ladder`: what accuracy costs in time.
+void add_ladder(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
 void add_submit(CLI::App& app, Action& action);
 void add_jobs(CLI::App& app, Action& action);

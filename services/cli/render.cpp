@@ -1,21 +1,15 @@
 // `radfarm render`: a farm of its own on loopback, one job, the same code and the same bits as on a thousand machines.
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "cli/closing_table.h"
 #include "cli/commands.h"
 #include "cli/deliver.h"
-#include "cli/follow.h"
-#include "cli/local_farm.h"
-#include "cli/phase_display.h"
+#include "cli/render_job.h"
 #include "cli/request_flags.h"
-#include "cli/solution_folder.h"
-#include "cli/upload.h"
 #include "process/signals.h"
 
 namespace radfarm::cli {
@@ -30,21 +24,10 @@ struct RenderFlags {
   bool no_cache = false;
 };
 
-LocalFarm::Options farm_options(const RenderFlags& flags) {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  return {flags.workers, flags.threads > 0 ? flags.threads : std::max(1, cores / flags.workers),
-          flags.no_cache ? "" : solution_folder()};
-}
-
 ExitCode exit_code_of(const nlohmann::json& report) {
   const nlohmann::json accuracy = report.value("accuracy", nlohmann::json::object());
   const bool missed = accuracy.value("target_met", nlohmann::json()) == nlohmann::json(false);
   return missed ? ExitCode::kTargetNotMet : ExitCode::kDone;
-}
-
-Result<JobStatus> submit(FarmClient& client, const RenderFlags& flags, const RenderRequest& request, const Events& events) {
-  PhaseDisplay submitting(Progress::style_for_stderr(), JobState::kQueued);
-  return submit_scene(client, flags.scene, request, submitting.progress(events.interruption()));
 }
 
 Result<nlohmann::json> render(const RenderFlags& flags, const RenderRequest& request, Events& events) {
@@ -53,19 +36,9 @@ Result<nlohmann::json> render(const RenderFlags& flags, const RenderRequest& req
     events.interrupt();
   });
   RADFARM_TRY_STATUS(check_folders(flags.outputs));
-  RADFARM_TRY(LocalFarm farm, LocalFarm::start(farm_options(flags)));
-  FarmClient client(farm.address());
-  RADFARM_TRY(const JobStatus job, submit(client, flags, request, events));
-  Progress progress(Progress::style_for_stderr());
-  FollowOptions options;
-  options.on_interrupt = FollowOptions::OnInterrupt::kCancelJob;
-  options.check_children = [&] { return farm.check(); };
-  const Result<JobStatus> done = follow(client, job.id, options, events, progress);
-  progress.finish();
-  if (!done) return tl::unexpected(done.error());
-  RADFARM_TRY_STATUS(check_succeeded(*done));
-  PhaseDisplay delivering(Progress::style_for_stderr(), JobState::kSucceeded);
-  return deliver(client, *done, flags.outputs, delivering.progress(events.interruption()));
+  RADFARM_TRY(LocalFarm farm, LocalFarm::start(local_farm_options(flags.workers, flags.threads, flags.no_cache)));
+  RADFARM_TRY(RenderedJob rendered, render_job(farm, flags.scene, request, flags.outputs, events));
+  return std::move(rendered.report);
 }
 
 Result<ExitCode> run_render(const RenderFlags& flags) {
