@@ -9,6 +9,15 @@ constexpr std::uint32_t kVersion = 1;
 
 }  // namespace
 
+void add(const PhotonResult& more, PhotonResult& sum) {
+  sum.paths += more.paths;
+  for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+    sum.pixels[i].direct += more.pixels[i].direct;
+    sum.pixels[i].indirect += more.pixels[i].indirect;
+    sum.pixels[i].specular += more.pixels[i].specular;
+  }
+}
+
 std::vector<std::byte> encode(const PhotonResult& result) {
   FlatFileWriter file("photons", kVersion);
   file.add_value("paths", result.paths);

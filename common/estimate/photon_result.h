@@ -25,6 +25,9 @@ struct PhotonResult {
   friend bool operator==(const PhotonResult&, const PhotonResult&) = default;
 };
 
+/// Adds another batch, pixel by pixel. Requires: of the same image.
+void add(const PhotonResult& more, PhotonResult& sum);
+
 /// Flat file of kind "photons" (docs/formats.md). Hostile bytes give DATA_LOSS.
 [[nodiscard]] std::vector<std::byte> encode(const PhotonResult& result);
 Result<PhotonResult> decode_photon_result(std::span<const std::byte> bytes);

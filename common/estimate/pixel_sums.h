@@ -58,4 +58,7 @@ inline double variance_of_mean(const PixelSums& pixel) {
   return std::max(pixel.squared_luminance / n - mean * mean, 0.0) / (n - 1);
 }
 
+/// The same as a number that can be added up: 0 of less than two samples.
+inline float noise_of(const PixelSums& pixel) { return pixel.samples < 2 ? 0 : static_cast<float>(variance_of_mean(pixel)); }
+
 }  // namespace radfarm

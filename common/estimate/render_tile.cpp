@@ -31,7 +31,8 @@ struct Pixel {
   PixelSums light;
   AovSums aovs;
   SharingSums sharing;
-  double squared_emission = 0;  // luminance
+  PixelNeeds needs;
+  double squared_emission = 0;  // luminance, of its first samples
 };
 
 struct Painter {
@@ -69,18 +70,16 @@ void add_samples(const Painter& painter, int x, int y, std::uint32_t first, std:
   painter.counters.dropped_samples += pixel.light.dropped - dropped;
 }
 
-/// Samples the emission alone `count` times; its mean with that of the pixel's samples stands for theirs.
-void add_emission(const Painter& painter, int x, int y, std::uint32_t count, Pixel& pixel) {
-  SpectrumD sum = pixel.light.emission;
-  double kept = pixel.light.samples;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const PixelSampler sampler(painter.film.seed, Stream::kEmission, x, y, i);
+/// Samples the emission alone, up to `wanted` times in all.
+void add_emission(const Painter& painter, int x, int y, std::uint32_t wanted, Pixel& pixel) {
+  PixelNeeds& needs = pixel.needs;
+  for (; needs.emission_taken < wanted; ++needs.emission_taken) {
+    const PixelSampler sampler(painter.film.seed, Stream::kEmission, x, y, needs.emission_taken);
     const Spectrum seen = painter.emission(film_ray(painter.film, x, y, sampler), sampler, painter.counters);
     if (!is_light({seen, {}, {}, {}})) continue;
-    sum += SpectrumD(seen);
-    kept += 1;
+    needs.emission_sum += SpectrumD(seen);
+    ++needs.emission_kept;
   }
-  if (kept > 0) pixel.light.emission = sum * (pixel.light.samples / kept);
 }
 
 /// The pixels of a rectangle and one more on each side, as far as the film goes.
@@ -131,11 +130,6 @@ Neighbours neighbours_of(const FirstSamples& first, int x, int y) {
   return about;
 }
 
-std::uint32_t within(const SampleBudget& budget, double wanted) {
-  return static_cast<std::uint32_t>(
-      std::clamp(std::ceil(wanted), static_cast<double>(budget.first), static_cast<double>(budget.most)));
-}
-
 /// How little the neighbours look at one smooth surface: 0, they could share their light, to 1.
 double roughness(const Neighbours& about) {
   Vec3d normal(0, 0, 0), middle(0, 0, 0);
@@ -156,41 +150,40 @@ double roughness(const Neighbours& about) {
   return std::min(1.0, (1 - length(normal)) / kBent + (away > 0 ? off / away / kOffPlane : 0));
 }
 
-/// Samples of a pixel by its neighbours' noise.
-std::uint32_t samples_for(const Neighbours& about, const SampleBudget& budget, bool shares) {
-  if (about.count == 0) return budget.first;
+/// How much samples scatter that a pixel's light needs, cd/m^2, by its neighbours' noise.
+double light_needs(const Neighbours& about, bool shares) {
+  if (about.count == 0) return 0;
   double variance = 0;
   for (std::size_t k = 0; k < about.count; ++k) variance += sample_variance(about.pixels[k]->light);
   const double alone = shares ? kSharedNoise + (1 - kSharedNoise) * roughness(about) : 1;
-  return within(budget, alone * std::sqrt(variance / static_cast<double>(about.count)) / static_cast<double>(budget.noise));
+  return alone * std::sqrt(variance / static_cast<double>(about.count));
 }
 
-/// Samples of a pixel's emission by how its neighbours' differs, within them and among them.
-std::uint32_t emission_samples_for(const Neighbours& about, const SampleBudget& budget) {
+/// The same of its emission, by how its neighbours' differs, within them and among them.
+double emission_needs(const Neighbours& about) {
   double sum = 0, squares = 0, samples = 0;
   for (std::size_t k = 0; k < about.count; ++k) {
     sum += luminance(about.pixels[k]->light.emission);
     squares += about.pixels[k]->squared_emission;
     samples += about.pixels[k]->light.samples;
   }
-  if (!(samples > 0)) return budget.first;
+  if (!(samples > 0)) return 0;
   const double variance = squares / samples - sum / samples * (sum / samples);
-  return within(budget, std::sqrt(std::max(0.0, variance)) / static_cast<double>(budget.noise));
+  return std::sqrt(std::max(0.0, variance));
 }
 
-/// What the neighbours make a pixel need beyond its first samples.
-void add_more(const Painter& painter, const SampleBudget& budget, const Neighbours& about, int x, int y, Pixel& pixel) {
-  const std::uint32_t samples = samples_for(about, budget, painter.kept.sharing);
-  add_samples(painter, x, y, budget.first, samples, pixel);
-  if (!painter.emission) return;
-  const std::uint32_t of_emission = emission_samples_for(about, budget);
-  if (of_emission > samples) add_emission(painter, x, y, of_emission - samples, pixel);
+/// What a pixel lacks of the budget.
+void add_more(const Painter& painter, const SampleBudget& budget, int x, int y, Pixel& pixel) {
+  const std::uint32_t taken = pixel.light.samples + pixel.light.dropped;
+  add_samples(painter, x, y, taken, samples_of(budget, pixel.needs), pixel);
+  if (painter.emission) add_emission(painter, x, y, emission_samples_of(budget, pixel.needs), pixel);
 }
 
-void keep(const Kept& kept, const Pixel& pixel, TilePixels& tile) {
+void keep(const Kept& kept, bool has_needs, const Pixel& pixel, TilePixels& tile) {
   tile.light.push_back(pixel.light);
   if (kept.aovs) tile.aovs.push_back(pixel.aovs);
   if (kept.sharing) tile.sharing.push_back(pixel.sharing);
+  if (has_needs) tile.needs.push_back(pixel.needs);
 }
 
 }  // namespace
@@ -209,14 +202,37 @@ PixelSums sample_pixel(const Film& film, Stream stream, int x, int y, std::uint3
 TilePixels render_tile(const Film& film, const PixelRect& rect, const SampleBudget& budget, const SampleRadiance& radiance,
                        Counters& counters, const Kept& kept, const SampleEmission& emission) {
   const Painter painter{film, radiance, emission, counters, kept};
-  const bool is_even = !(budget.noise > 0) || budget.most <= budget.first;
-  const FirstSamples first = sample_first(painter, is_even ? rect : with_neighbours(rect, film), budget.first);
+  const FirstSamples first = sample_first(painter, is_even(budget) ? rect : with_neighbours(rect, film), budget.first);
   TilePixels tile;
   for (int y = rect.y0; y < rect.y1; ++y) {
     for (int x = rect.x0; x < rect.x1; ++x) {
       Pixel pixel = first.at(x, y);
-      if (!is_even) add_more(painter, budget, neighbours_of(first, x, y), x, y, pixel);
-      keep(kept, pixel, tile);
+      if (!is_even(budget)) {
+        const Neighbours about = neighbours_of(first, x, y);
+        pixel.needs.light = light_needs(about, kept.sharing);
+        pixel.needs.emission = emission ? emission_needs(about) : 0;
+      }
+      add_more(painter, budget, x, y, pixel);
+      keep(kept, !is_even(budget), pixel, tile);
+    }
+  }
+  return tile;
+}
+
+TilePixels resume_tile(const Film& film, const PixelRect& rect, const SampleBudget& budget, const SampleRadiance& radiance,
+                       Counters& counters, const Kept& kept, const SampleEmission& emission, const TilePixels& before) {
+  const Painter painter{film, radiance, emission, counters, kept};
+  TilePixels tile;
+  std::size_t i = 0;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (int x = rect.x0; x < rect.x1; ++x, ++i) {
+      Pixel pixel;
+      pixel.light = before.light[i];
+      if (kept.aovs) pixel.aovs = before.aovs[i];
+      if (kept.sharing) pixel.sharing = before.sharing[i];
+      if (!is_even(budget)) pixel.needs = before.needs[i];
+      add_more(painter, budget, x, y, pixel);
+      keep(kept, !is_even(budget), pixel, tile);
     }
   }
   return tile;

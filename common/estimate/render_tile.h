@@ -8,6 +8,7 @@
 #include "estimate/counters.h"
 #include "estimate/pixel_sampler.h"
 #include "estimate/pixel_sums.h"
+#include "estimate/sample_budget.h"
 #include "estimate/sharing_sums.h"
 #include "scene/camera.h"
 
@@ -46,25 +47,25 @@ struct Kept {
   bool sharing = false;  // then samples come in two halves that share no random number
 };
 
-/// How many samples pixels get.                                                              docs/pipeline.md (pixels.1)
-struct SampleBudget {
-  std::uint32_t first = 1;  // each pixel
-  std::uint32_t most = 1;   // any pixel
-  float noise = 0;          // cd/m^2: a pixel whose samples scatter by s gets s / noise; 0: `first`
-};
-
 /// A tile's pixels, row by row; what is not kept is empty.
 struct TilePixels {
   std::vector<PixelSums> light;
   std::vector<AovSums> aovs;
   std::vector<SharingSums> sharing;
+  std::vector<PixelNeeds> needs;  // of a budget by noise
 };
 
 /// sample_pixel for every pixel of a tile. How many samples a pixel gets is decided by those of its eight
 /// neighbours, and not by its own: which samples a mean has must not depend on them, or it is biased towards what rare ones
 /// lack. Neighbours beyond the tile's border are sampled as well, to the same bits as in their own tile.
-/// Emission has no noise but at its edges: where neighbours' differs, the emission alone is sampled further, by the same rule.
+/// Emission has no noise but at its edges: where neighbours' differs, the emission alone is sampled further, by the same rule;
+/// complete_emission() adds what that finds.
 TilePixels render_tile(const Film& film, const PixelRect& rect, const SampleBudget& budget, const SampleRadiance& radiance,
                        Counters& counters, const Kept& kept = {}, const SampleEmission& emission = {});
+
+/// The same with a larger scale, going on from what a smaller one gave: the same bits as all at once.
+/// Requires: `before` is of this rectangle, of the same budget but for its scale, and of what is kept.
+TilePixels resume_tile(const Film& film, const PixelRect& rect, const SampleBudget& budget, const SampleRadiance& radiance,
+                       Counters& counters, const Kept& kept, const SampleEmission& emission, const TilePixels& before);
 
 }  // namespace radfarm

@@ -32,12 +32,15 @@ struct Settings {
   std::uint32_t photon_origins = 0;      // OriginSet: the light that they bring
   float photon_radius = 0;               // m, of all discs; 0: each as wide as brings it `photon_crossings` (photons, of a map)
   float photon_crossings = 0;
+  float level = 1;                       // of all that --quality chooses: 0 preview, 1 standard, 2 high, 3 reference, or between
+  float target_error = 0;                // relative, that they were chosen for; 0: none
   RadiositySettings radiosity;
   SenderSettings senders;
 
   /// Whether photon tasks bring the light of diffuse surfaces.
-  bool is_by_photons() const { return integrator == Integrator::kPaths || integrator == Integrator::kPhotonMap; }
+  static constexpr bool is_by_photons(Integrator i) { return i == Integrator::kPaths || i == Integrator::kPhotonMap; }
+  bool is_by_photons() const { return is_by_photons(integrator); }
 };
-static_assert(sizeof(Settings) == 84 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
+static_assert(sizeof(Settings) == 92 + sizeof(RadiositySettings) + sizeof(SenderSettings), "Settings has padding");
 
 }  // namespace radfarm

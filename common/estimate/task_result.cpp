@@ -5,7 +5,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 }  // namespace
 
@@ -15,6 +15,7 @@ std::vector<std::byte> encode(const TileResult& result) {
   file.add("pixels", result.pixels);
   file.add("aovs", result.aovs);
   file.add("sharing", result.sharing);
+  file.add("needs", result.needs);
   file.add_value("counters", result.counters);
   return file.finish();
 }
@@ -33,6 +34,7 @@ Result<TileResult> decode_tile_result(std::span<const std::byte> bytes) {
   RADFARM_TRY(result.pixels, file.copy<PixelSums>("pixels"));
   RADFARM_TRY(result.aovs, file.copy<AovSums>("aovs"));
   RADFARM_TRY(result.sharing, file.copy<SharingSums>("sharing"));
+  RADFARM_TRY(result.needs, file.copy<PixelNeeds>("needs"));
   RADFARM_TRY(result.counters, file.get_value<Counters>("counters"));
   const PixelRect& rect = result.rect;
   const bool is_inside = rect.x0 >= 0 && rect.y0 >= 0 && rect.x1 > rect.x0 && rect.y1 > rect.y0 &&
@@ -40,11 +42,9 @@ Result<TileResult> decode_tile_result(std::span<const std::byte> bytes) {
   if (!is_inside || result.pixels.size() != static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height())) {
     return fail(Code::kDataLoss, "tile result: its rectangle and its pixels do not agree");
   }
-  if (!result.aovs.empty() && result.aovs.size() != result.pixels.size()) {
-    return fail(Code::kDataLoss, "tile result: its pixels and their AOVs do not agree");
-  }
-  if (!result.sharing.empty() && result.sharing.size() != result.pixels.size()) {
-    return fail(Code::kDataLoss, "tile result: its pixels and what they share do not agree");
+  const auto agrees = [&](std::size_t size) { return size == 0 || size == result.pixels.size(); };
+  if (!agrees(result.aovs.size()) || !agrees(result.sharing.size()) || !agrees(result.needs.size())) {
+    return fail(Code::kDataLoss, "tile result: its pixels and their AOVs, or what they share or need, do not agree");
   }
   return result;
 }

@@ -9,6 +9,7 @@
 #include "estimate/counters.h"
 #include "estimate/pixel_sums.h"
 #include "estimate/render_tile.h"
+#include "estimate/sample_budget.h"
 #include "estimate/sharing_sums.h"
 
 namespace radfarm {
@@ -19,6 +20,7 @@ struct TileResult {
   std::vector<PixelSums> pixels;  // row by row
   std::vector<AovSums> aovs;          // the same, or empty: nobody asked
   std::vector<SharingSums> sharing;   // the same, or empty: pixels do not share
+  std::vector<PixelNeeds> needs;      // the same, or empty: all get the same number of samples
   Counters counters;
   friend bool operator==(const TileResult&, const TileResult&) = default;
 };

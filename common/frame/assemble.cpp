@@ -72,8 +72,10 @@ Result<Raster> assemble(const Settings& settings, std::span<const TileResult> ti
   const auto width = static_cast<std::size_t>(settings.width);
   raster.pixels.resize(width * static_cast<std::size_t>(settings.height));
   const bool has_aovs = settings.aovs != 0, shares = settings.shares_light != 0;
+  const bool has_needs = !tiles.empty() && !tiles[0].needs.empty();
   if (has_aovs) raster.aovs.resize(raster.pixels.size());
   if (shares) raster.sharing.resize(raster.pixels.size());
+  if (has_needs) raster.needs.resize(raster.pixels.size());
   std::vector<bool> filled(raster.pixels.size());
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < tiles.size(); ++i) {
@@ -85,6 +87,9 @@ Result<Raster> assemble(const Settings& settings, std::span<const TileResult> ti
     if (shares && tile.sharing.size() != tile.pixels.size()) {
       return fail(Code::kDataLoss, "tile " + std::to_string(i) + " has nothing to share");
     }
+    if (has_needs != !tile.needs.empty()) {
+      return fail(Code::kDataLoss, "tile " + std::to_string(i) + " does not say what its pixels need");
+    }
     raster.counters += tile.counters;
     std::size_t next = 0;
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y) {
@@ -94,7 +99,12 @@ Result<Raster> assemble(const Settings& settings, std::span<const TileResult> ti
         filled[pixel] = true;
         if (has_aovs) raster.aovs[pixel] = tile.aovs[next];
         if (shares) raster.sharing[pixel] = tile.sharing[next];
-        raster.pixels[pixel] = tile.pixels[next++];
+        raster.pixels[pixel] = tile.pixels[next];
+        if (has_needs) {
+          raster.needs[pixel] = tile.needs[next];
+          complete_emission(tile.needs[next], raster.pixels[pixel]);
+        }
+        ++next;
         ++count;
       }
     }

@@ -19,6 +19,8 @@ struct Raster {
   std::vector<AovSums> aovs = {};  // the same, or empty: nobody asked
   LuminanceImage elevation = {};   // of the visible threshold by detail, blocks of pixels each; empty without masking
   std::vector<SharingSums> sharing = {};  // the same, or empty: pixels do not share
+  std::vector<PixelNeeds> needs = {};     // the same, or empty: all get the same number of samples
+  std::vector<float> noise = {};          // variance, (cd/m^2)^2, of their mean reflected luminance; empty: not asked yet
 };
 
 /// Puts tiles together. DATA_LOSS when a pixel is missing or given twice, or its AOVs or what it shares are missing.

@@ -9,6 +9,7 @@
 #include "estimate/settings.h"
 #include "estimate/task_result.h"
 #include "frame/assemble.h"
+#include "frame/round.h"
 
 namespace radfarm {
 
@@ -29,13 +30,19 @@ struct Accuracy {
   double direct_mse = 0;                // parts that add up to the MSE
   double indirect_mse = 0;
   double specular_mse = 0;
+  // What the decision whether to render on goes by:
+  double mse = 0;                       // may be negative within its noise, (cd/m^2)^2
+  double mse_error = 0;                 // its standard error
+  double audit_noise = 0;               // of that, what the audit's own paths bring, and not the choice of pixels
+  double path_variance = 0;             // of the reflected luminance of one path by a pixel, mean over the image
+  std::optional<double> surely_below;   // the relative error is below this but for a chance of 5 % / kMostRounds
 };
 
 /// Two independent unbiased estimates r1, r2 of each audited pixel estimate the image's MSE without bias, whatever the bias
 /// of the image x: E (x - r1)(x - r2) = (x - r)^2.                            docs/accuracy.md (audit.1)
 ///
-/// The interval is the percentile bootstrap over audited pixels (1000 resamples, keyed by the job's seed).
-/// Requires: audits in task order. DATA_LOSS when they are not the pixels that the settings choose. O(1000 m).
-Result<Accuracy> audit(const Settings& settings, const Raster& raster, std::span<const AuditResult> audits);
+/// The interval is the percentile bootstrap over audited pixels (1000 resamples, keyed by the audit's seed).
+/// Requires: audits in task order. DATA_LOSS when they are not the pixels that the round chooses. O(1000 m).
+Result<Accuracy> audit(const Settings& settings, const Round& round, const Raster& raster, std::span<const AuditResult> audits);
 
 }  // namespace radfarm

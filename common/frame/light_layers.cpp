@@ -69,6 +69,7 @@ void add_light_group(const Raster& group, Raster& sum) {
     const PixelSums both = sum_of(sum.pixels[i], group.pixels[i]);
     if (!sum.aovs.empty()) add_aovs(group.aovs[i], rescaled(sum.pixels[i].samples, both.samples), sum.aovs[i]);
     sum.pixels[i] = both;
+    if (!sum.noise.empty()) sum.noise[i] += group.noise[i];
   }
 }
 

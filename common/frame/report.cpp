@@ -67,6 +67,7 @@ const char* name_of(Settings::Integrator integrator) {
 
 json to_json(const Settings& s) {
   json out = {{"integrator", name_of(s.integrator)},
+              {"level", s.level},
               {"width", s.width},
               {"height", s.height},
               {"tile", s.tile},
@@ -78,6 +79,7 @@ json to_json(const Settings& s) {
               {"audit_pixels", s.audit_pixels},
               {"audit_samples", s.audit_samples},
               {"effects_off", s.effects_off}};
+  if (s.target_error > 0) out["target_error"] = s.target_error;
   if (s.aovs != 0) out["aov"] = aov_names(s.aovs);
   if (s.photons > 0) {
     out["photons"] = {{"paths", s.photons}, {"batches", s.photon_batches}, {"radius", s.photon_radius}, {"crossings", s.photon_crossings}};

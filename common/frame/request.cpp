@@ -229,6 +229,8 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
   if (key == "link_error") return read(value, key, request.link_error);
   if (key == "threshold") return read(value, key, request.threshold);
   if (key == "oracle") return read(value, key, request.oracle);
+  if (key == "error") return read(value, key, request.error);
+  if (key == "time") return read(value, key, request.time);
   if (key == "audit") return read(value, key, request.audit);
   if (key == "sharing") return read(value, key, request.sharing);
   if (key == "mesh") return read(value, key, request.mesh);
@@ -245,7 +247,6 @@ Status read_member(const std::string& key, const Json& value, RenderRequest& req
 
 nlohmann::json to_json(const RenderRequest& request) {
   Json json = {{"integrator", to_string(request.integrator)},
-               {"quality", to_string(request.quality)},
                {"up", name_of(kUpAxes, request.up)},
                {"seed", request.seed},
                {"tile", request.tile},
@@ -254,6 +255,7 @@ nlohmann::json to_json(const RenderRequest& request) {
                {"sharing", request.sharing},
                {"effects", request.effects},
                {"env", request.env}};
+  if (!request.error && !request.time) json["quality"] = to_string(request.quality);
   if (request.gather != Gather::kDefault) json["gather"] = to_string(request.gather);
   if (request.mesh) json["mesh"] = true;
   if (!request.aov.empty()) json["aov"] = request.aov;
@@ -263,6 +265,8 @@ nlohmann::json to_json(const RenderRequest& request) {
   json["camera"] = std::visit([](const auto& camera) { return to_json(camera); }, request.camera);
   if (request.width) json["width"] = *request.width;
   if (request.height) json["height"] = *request.height;
+  if (request.error) json["error"] = *request.error;
+  if (request.time) json["time"] = *request.time;
   if (request.samples) json["samples"] = *request.samples;
   if (request.photons) json["photons"] = *request.photons;
   if (request.radius) json["radius"] = *request.radius;
@@ -275,6 +279,8 @@ Result<RenderRequest> render_request_from_json(const nlohmann::json& json) {
   if (!json.is_object()) return invalid("a render request must be a JSON object");
   RenderRequest request;
   for (const auto& [key, value] : json.items()) RADFARM_TRY_STATUS(read_member(key, value, request));
+  const auto asked = json.count("quality") + json.count("error") + json.count("time");
+  if (asked > 1) return invalid("quality, error and time exclude each other");
   return request;
 }
 

@@ -37,7 +37,7 @@ struct RenderRequest {
 
   Integrator integrator = Integrator::kAuto;
   Gather gather = Gather::kDefault;       // the final gather as built here, or as paper 1 has it
-  Quality quality = Quality::kStandard;
+  Quality quality = Quality::kStandard;   // as it is by default where there is a target
   std::variant<NamedCamera, PlacedCamera> camera;
   std::optional<int> width, height;       // pixels, 1 to 16384; by default 640 wide at the camera's aspect
   UpAxis up = UpAxis::kY;                 // OBJ only
@@ -49,6 +49,9 @@ struct RenderRequest {
   Oracle oracle = LinkOracle().criterion;  // what judges the links of the radiosity solve
   std::optional<std::uint64_t> photons;    // light paths of --integrator paths and photon-map; by default from quality
   std::optional<float> radius;            // metres, of their discs; by default by how many paths cross, or photons lie, there
+  // Instead of a quality, that settings are chosen for:
+  std::optional<double> error;            // relative error that the image is to be below: .02 is 2 %
+  std::optional<double> time;             // seconds of wall time
   bool audit = true;
   bool sharing = true;                    // whether like pixels share light, where the integrator lets them (sharing/share_light.h)
   bool mesh = false;                      // radiosity only: draws the edges of the elements; such an image is not audited
@@ -61,6 +64,9 @@ struct RenderRequest {
 
   friend bool operator==(const RenderRequest&, const RenderRequest&) = default;
 };
+
+/// The least relative error that may be asked for.
+inline constexpr double kLeastTargetError = 1e-4;
 
 /// INVALID_ARGUMENT when a value is out of range; the message names the flag and what would be right.
 Status validate(const RenderRequest& request);

@@ -16,7 +16,7 @@ std::size_t tile_count(const Settings& settings) {
          static_cast<std::size_t>(tiles_across(settings.height, settings.tile));
 }
 
-std::vector<Task> cut_tasks(const Settings& settings, std::size_t images) {
+std::vector<Task> cut_tasks(const Settings& settings, const Round& round, std::size_t images) {
   std::vector<Task> tasks;
   for (std::size_t i = 0; i < images * tile_count(settings); ++i) {
     tasks.push_back({Task::Kind::kTile, static_cast<std::uint32_t>(i)});
@@ -24,8 +24,7 @@ std::vector<Task> cut_tasks(const Settings& settings, std::size_t images) {
   for (std::size_t i = 0; i < images * settings.photon_batches; ++i) {
     tasks.push_back({Task::Kind::kPhotons, static_cast<std::uint32_t>(i)});
   }
-  const std::size_t audited =
-      choose_audit_pixels(settings.width, settings.height, settings.audit_pixels, settings.seed).size();
+  const std::size_t audited = audited_pixels(settings, round).size();
   for (std::size_t first = 0; first < audited; first += kAuditPixelsPerTask) {
     tasks.push_back({Task::Kind::kAudit, static_cast<std::uint32_t>(first / kAuditPixelsPerTask)});
   }
@@ -44,12 +43,15 @@ PixelRect tile_rect(const Settings& settings, std::uint32_t index) {
   return {x0, y0, std::min(x0 + settings.tile, settings.width), std::min(y0 + settings.tile, settings.height)};
 }
 
-std::vector<AuditPixel> audit_task_pixels(const Settings& settings, std::uint32_t index) {
-  const std::vector<AuditPixel> all =
-      choose_audit_pixels(settings.width, settings.height, settings.audit_pixels, settings.seed);
+std::vector<AuditPixel> audit_task_pixels(const Settings& settings, const Round& round, std::uint32_t index) {
+  const std::vector<AuditPixel> all = audited_pixels(settings, round);
   const std::size_t begin = std::min(all.size(), index * kAuditPixelsPerTask);
   const std::size_t end = std::min(all.size(), begin + kAuditPixelsPerTask);
   return {all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+std::vector<AuditPixel> audited_pixels(const Settings& settings, const Round& round) {
+  return choose_audit_pixels(settings.width, settings.height, round.audit_pixels, audit_seed(settings, round));
 }
 
 }  // namespace radfarm

@@ -19,6 +19,7 @@ constexpr int kMaxTile = 1024;
 constexpr int kMaxSamples = 1 << 20;
 constexpr std::uint64_t kMaxPhotons = std::uint64_t{1} << 40;
 constexpr std::size_t kMaxIes = 1000;
+constexpr double kMostSeconds = 30 * 86400.0;
 constexpr std::size_t kMaxText = 1024;  // bytes of a camera's name or an effects list
 
 tl::unexpected<Error> invalid(std::string message) { return fail(Code::kInvalidArgument, std::move(message)); }
@@ -96,6 +97,21 @@ Status check_photons(const RenderRequest& request) {
   return {};
 }
 
+Status check_target(const RenderRequest& request) {
+  if (request.error && request.time) return invalid("--error and --time exclude each other");
+  if (request.error && !(*request.error >= kLeastTargetError && *request.error <= 1)) {
+    return invalid("--error is " + std::to_string(100 * *request.error) + " %, must be from .01 % to 100 %");
+  }
+  if (request.time && !(*request.time >= 1 && *request.time <= kMostSeconds)) {
+    return invalid("--time is " + std::to_string(*request.time) + " s, must be from 1 s to 30 days");
+  }
+  if (!request.error && !request.time) return {};
+  const std::string flag = request.error ? "--error" : "--time";
+  if (!request.audit) return invalid(flag + " needs the audit, not --no-audit");
+  if (request.mesh) return invalid(flag + ": an image with --mesh is not audited");
+  return {};
+}
+
 }  // namespace
 
 Status validate(const RenderRequest& request) {
@@ -118,6 +134,7 @@ Status validate(const RenderRequest& request) {
                    " m, must be positive and finite");
   }
   RADFARM_TRY_STATUS(check_photons(request));
+  RADFARM_TRY_STATUS(check_target(request));
   const bool is_gather = request.integrator != Integrator::kPathTrace && request.integrator != Integrator::kRadiosity &&
                          !has_photons(request);
   if (request.gather == Gather::kPaper && !is_gather) {

@@ -9,7 +9,7 @@
 namespace radfarm {
 namespace {
 
-constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kVersion = 11;
 constexpr std::uint32_t kMaxPhotonBatches = 1 << 16;
 
 /// Camera without its name: a fixed layout.
@@ -22,7 +22,8 @@ struct StoredCamera {
 bool is_sane(const Settings& s) {
   const auto side = [](std::int32_t n) { return n >= 1 && n <= 16384; };
   return side(s.width) && side(s.height) && side(s.tile) && s.camera_samples >= 1 && s.aovs >> kAovCount == 0 &&
-         s.photon_batches <= kMaxPhotonBatches && (s.photon_batches == 0 || s.photons >= s.photon_batches);
+         s.photon_batches <= kMaxPhotonBatches && (s.photon_batches == 0 || s.photons >= s.photon_batches) &&
+         s.max_camera_samples >= s.camera_samples;
 }
 
 /// Light groups are added up pixel by pixel, and each is cut into the same tasks.

@@ -16,8 +16,11 @@
 #include "base/status.h"
 #include "frame/report.h"
 #include "frame/request.h"
+#include "frame/round.h"
 #include "frame/task.h"
 #include "image/image.h"
+#include "pipeline/effort.h"
+#include "pipeline/round_figures.h"
 #include "pipeline/solution_store.h"
 
 namespace radfarm {
@@ -39,12 +42,24 @@ struct PrepareContext {
 };
 
 /// Loads and validates a scene, plans its effects, solves radiosity, classifies senders for one view.
-/// Errors: what load_scene refuses, no emitter, a camera that does not exist, CANCELLED. Cost: seconds; uses all threads.
+/// `effort`: what rounds of a job before found that it takes. Errors: what load_scene refuses, no emitter, a camera that does not
+/// exist, CANCELLED. Cost: seconds; uses all threads.
 Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request,
-                              const PrepareContext& context = {});
+                              const PrepareContext& context = {}, const Effort& effort = {});
 
-/// The tasks of a prepared view, in the order in which they are best run. Tiles, light group by light group, then audit tasks.
-Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view);
+/// How a prepared view is rendered first; a job that has a target decides by what comes of it (pipeline/next_round.h).
+Result<Round> first_round(std::span<const std::byte> view);
+
+/// `expected` of its facts: what the request and others are expected to cost (docs/formats.md).
+Result<nlohmann::json> expected_cost_of(std::span<const std::byte> view);
+
+/// What a request's job is asked for.
+Target target_of(const RenderRequest& request);
+
+/// The tasks of a round of a prepared view, in the order in which they are best run. Tiles, light group by light group, then
+/// audit tasks.
+Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view, const Round& round);
+Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view);  // of the first
 
 /// A prepared view opened for running tasks: acceleration structures built, arrays ready. Thread-safe when const.
 class Prepared {
@@ -64,16 +79,57 @@ class Prepared {
   std::unique_ptr<Parts> parts_;
 };
 
-/// One task's encoded sums: the same bytes whoever runs it, on the caller's thread alone. Cost: up to seconds.
-Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task);
+/// What a task of one round starts from.
+struct TaskRound {
+  Round round;
+  std::span<const std::byte> before = {};  // what the same task returned in a round before it, of a smaller scale; may be empty
+};
+
+/// One task's encoded sums: the same bytes whoever runs it, and whether it goes on or starts anew, on the caller's thread alone.
+/// Cost: up to seconds. DATA_LOSS when what it should go on from is of another task.
+Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task, const TaskRound& of);
+Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task);  // of the first round
 
 struct Finished {
   Image image;                             // layers and header attributes of DESIGN section 9
   std::unique_ptr<nlohmann::json> report;  // the report JSON of DESIGN section 9
 };
 
-/// Assembles the image from all results (in cut_tasks order) and audits it. DATA_LOSS when a result is damaged or missing,
-/// INTERNAL when the share of dropped samples is above its limit.
+/// All results of a round put together and audited: what decides whether the job goes on, and what image and report are made of.
+class AssembledRound {
+ public:
+  AssembledRound(AssembledRound&&) noexcept;
+  AssembledRound& operator=(AssembledRound&&) noexcept;
+  ~AssembledRound();
+  struct Parts;
+  explicit AssembledRound(std::unique_ptr<Parts> parts);
+  const Parts& parts() const { return *parts_; }
+  Parts& parts() { return *parts_; }
+
+  const RoundFigures& figures() const;  // kind and costs are the caller's to fill in
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Results in cut_tasks order. DATA_LOSS when one is damaged or missing, INTERNAL when the share of dropped samples is above its
+/// limit.
+Result<AssembledRound> assemble_round(std::span<const std::byte> view, const Round& round,
+                                      std::span<const std::vector<std::byte>> results);
+
+/// What the report says of a job besides its last round.
+struct JobFacts {
+  FarmFacts farm;
+  Target target;
+  std::optional<bool> target_met;    // nothing: there is none, or the image is black
+  std::vector<RoundFigures> rounds;  // all that were rendered; empty: the assembled one alone
+  double elapsed_seconds = 0;        // of wall time, where the target is one of seconds
+};
+
+/// Image and report of an assembled round, the job's last.
+Finished finish(AssembledRound round, JobFacts job);
+
+/// Of a job that has one round: assembled from all results and audited.
 Result<Finished> finish(std::span<const std::byte> view, std::span<const std::vector<std::byte>> results,
                         const FarmFacts& farm);
 

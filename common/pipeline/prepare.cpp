@@ -100,6 +100,7 @@ struct Planned {
   EffectsPlan plan;
   ChosenCamera camera;
   Settings settings;
+  PathPilot pilot;
   json unaudited;
   std::vector<std::byte> scene_bytes;
   json facts;
@@ -127,8 +128,22 @@ json warnings(const Planned& planned, const RenderRequest& request) {
   return lines;
 }
 
+/// Settings for a target, by what single paths tell of the view.
+Status resolve_by_pilot(const RenderRequest& request, const Effort& effort, Planned& planned) {
+  const Camera& camera = planned.camera.camera;
+  planned.pilot = trace_pilot(*planned.world, camera, planned.settings);
+  if (request.time && !effort.level) {
+    const float level = level_in_time(request, *planned.world, camera, planned.pilot, effort.threads);
+    planned.settings = resolve_settings(request, camera, {level, effort.by_paths, effort.threads});
+    RADFARM_TRY(planned.settings.aovs, requested_aovs(request));
+  }
+  resolve_paths(request, planned.pilot, effort.threads, planned.settings);
+  resolve_audit(request, *planned.world, planned.pilot, planned.settings);
+  return {};
+}
+
 Result<Planned> plan(const std::filesystem::path& scene_file, const RenderRequest& request, const Progress& progress,
-                     StageClock& clock) {
+                     StageClock& clock, const Effort& effort = {}) {
   RADFARM_TRY_STATUS(validate(request));
   Planned planned;
   progress.report("load");
@@ -146,12 +161,13 @@ Result<Planned> plan(const std::filesystem::path& scene_file, const RenderReques
   RADFARM_TRY_STATUS(progress.check());
   progress.report("effects");
   RADFARM_TRY(planned.camera, choose_camera(planned.world->scene, request));
-  planned.settings = resolve_settings(request, planned.camera.camera);
+  planned.settings = resolve_settings(request, planned.camera.camera, effort);
   RADFARM_TRY(planned.settings.aovs, requested_aovs(request));
   const ViewSize size{planned.camera.camera, planned.settings.width, planned.settings.height};
   planned.measurements = measure(*planned.world, size, request.seed, progress);
   RADFARM_TRY_STATUS(progress.check());
   RADFARM_TRY_STATUS(check_light(*planned.world, planned.measurements));
+  RADFARM_TRY_STATUS(resolve_by_pilot(request, effort, planned));
   const bool is_path = follows_paths(planned.settings);
   const Transport gather = request.gather == Gather::kPaper ? Transport::kPaperGather : Transport::kGather;
   RADFARM_TRY(planned.plan, plan_effects(planned.measurements, is_path ? Transport::kPathTrace : gather, request.effects));
@@ -235,6 +251,42 @@ bool needs_world(const Planned& planned, const RenderRequest& request) {
   return !follows_paths(planned.settings) || wants_light_groups(request);
 }
 
+/// What settings are expected to cost. Each light group is an image of its own; the audit is of their sum.
+json cost_json(const RenderRequest& request, const Planned& planned, const Settings& settings, std::size_t images) {
+  ExpectedCost cost = expect_cost(*planned.world, settings, planned.pilot, noise_share(request, settings));
+  const double more = static_cast<double>(images) - 1;
+  return {{"cpu_s", {cost.low + more * (cost.low - cost.audit), cost.high + more * (cost.high - cost.audit)}},
+          {"audit_cpu_s", cost.audit}};
+}
+
+/// Of the request, and of others of the same view.
+json expected(const RenderRequest& request, const Planned& planned, std::size_t images) {
+  json out = cost_json(request, planned, planned.settings, images);
+  out["ray_s"] = planned.pilot.ray_seconds;
+  const auto add = [&](const char* name, const RenderRequest& other) {
+    Settings settings = resolve_settings(other, planned.camera.camera);
+    resolve_specular_light(other, planned.plan, settings);
+    resolve_paths(other, planned.pilot, 1, settings);
+    resolve_audit(other, *planned.world, planned.pilot, settings);
+    json row = cost_json(other, planned, settings, images);
+    row["ask"] = name;
+    out["others"].push_back(row);
+  };
+  RenderRequest other = request;
+  other.error.reset(), other.time.reset();
+  for (const auto& [name, quality] : {std::pair("preview", RenderRequest::Quality::kPreview),
+                                      std::pair("standard", RenderRequest::Quality::kStandard),
+                                      std::pair("high", RenderRequest::Quality::kHigh)}) {
+    other.quality = quality;
+    add(name, other);
+  }
+  other.quality = RenderRequest().quality;
+  if (!request.audit || request.mesh) return out;
+  other.error = .01;
+  add("1 %", other);
+  return out;
+}
+
 /// Solutions and views, of each light group or of all light, and what is said of them.
 Status prepare_views(const RenderRequest& request, const PrepareContext& context, StageClock& clock, Planned& planned,
                      PreparedFiles& files) {
@@ -248,6 +300,7 @@ Status prepare_views(const RenderRequest& request, const PrepareContext& context
   for (PreparedLight& light : lights) solutions.push_back(std::move(light.solution));
   if (!solutions[0].empty()) files.solution = encode_solutions(solutions);
   add_facts(lights, files.solution, planned.facts);
+  planned.facts["expected"] = expected(request, planned, lights.size());
   planned.facts["stages"] = clock.stages();
   planned.facts["peak_memory_bytes"] = peak_memory_bytes();
   std::vector<View> views;
@@ -260,9 +313,9 @@ Status prepare_views(const RenderRequest& request, const PrepareContext& context
 }  // namespace
 
 Result<PreparedFiles> prepare(const std::filesystem::path& scene_file, const RenderRequest& request,
-                              const PrepareContext& context) {
+                              const PrepareContext& context, const Effort& effort) {
   StageClock clock;
-  RADFARM_TRY(Planned planned, plan(scene_file, request, context.progress, clock));
+  RADFARM_TRY(Planned planned, plan(scene_file, request, context.progress, clock, effort));
   PreparedFiles files;
   RADFARM_TRY_STATUS(prepare_views(request, context, clock, planned, files));
   files.scene = std::move(planned.scene_bytes);
@@ -296,12 +349,7 @@ Result<json> explain(const std::filesystem::path& scene_file, const RenderReques
   const World& world = wants_light_groups(request) ? rendered_world(planned, made) : *planned.world;
   RADFARM_TRY(const std::vector<EmitterGroup> groups, requested_light_groups(world, request));
   if (wants_light_groups(request)) planned.facts["light_groups"] = group_rows(groups);
-  ExpectedCost cost = expect_cost(*planned.world, planned.camera.camera, planned.settings);
-  // Each group is an image of its own; the audit is of their sum.
-  const double images = groups.empty() ? 1 : static_cast<double>(groups.size());
-  cost.low = images * (cost.low - cost.audit) + cost.audit;
-  cost.high = images * (cost.high - cost.audit) + cost.audit;
-  planned.facts["expected"] = {{"cpu_s", {cost.low, cost.high}}, {"audit_cpu_s", cost.audit}, {"ray_s", cost.ray_seconds}};
+  planned.facts["expected"] = expected(request, planned, std::max<std::size_t>(1, groups.size()));
   planned.facts["stages"] = clock.stages();
   return planned.facts;
 }

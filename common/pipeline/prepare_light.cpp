@@ -38,7 +38,7 @@ Status prepare_gather(const World& world, const SolvedLight& solved, const Plann
   RADFARM_TRY_STATUS(planned.context.progress.check());
   // Of a view that sees nothing reflect, the whole scene's.
   const double mean = classified.seen_radiance > 0 ? classified.seen_radiance : solved.facts.mean_radiance;
-  settings.noise = noise_share(planned.request) * static_cast<float>(mean);
+  settings.noise = noise_share(planned.request, settings) * static_cast<float>(mean);
   const SenderGridFile& grid = classified.file;
   view.grid = encode(grid);
   light.said["perception"] = perception_json(classified.perception, settings.senders);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "image/visibility_threshold.h"
 #include "paths/photon_path.h"
+#include "pipeline/pipeline.h"
 #include "scene/camera.h"
 
 namespace radfarm {
@@ -52,6 +54,49 @@ constexpr QualityRow kQuality[] = {
 
 // Times its first samples, of one pixel.
 constexpr std::uint32_t kMostSamples = 64;
+
+// For a target of error e: the level whose light is likely to be good enough, ln(kErrorOfPreview / e) / ln(kErrorPerLevel); of
+// photon paths, whose error falls with the cube root of their number, by rows of their own.
+constexpr double kErrorOfPreview = .1, kErrorPerLevel = 3;
+constexpr double kPathsErrorOfPreview = .14, kPathsErrorPerLevel = 1.6;
+// Noise that pixels may keep, as a share of the mean, over e^2: half of what pixels that share light need, so that what is hard
+// costs no more rounds than it must and what is easy is met at once.
+constexpr double kNoiseOfTarget = 12;
+constexpr std::uint32_t kFirstSamples = 16;  // of a pixel for a target, at most: noise decides all others
+
+template <typename T>
+T between(T a, T b, double t) {
+  const double x = static_cast<double>(a), y = static_cast<double>(b);
+  const double value = x > 0 && y > 0 ? x * std::pow(y / x, t) : x + t * (y - x);
+  if constexpr (std::is_integral_v<T>) return static_cast<T>(std::llround(value));
+  return static_cast<T>(value);
+}
+
+/// Between two qualities all counts and thresholds are, on a logarithmic scale. At a quality exactly its own.
+QualityRow row_at(float level) {
+  const double whole = std::clamp(std::floor(static_cast<double>(level)), 0.0, 3.0), t = std::clamp(level - whole, 0.0, 1.0);
+  const QualityRow& a = kQuality[static_cast<std::size_t>(whole)];
+  if (t == 0 || whole == 3) return a;
+  const QualityRow& b = kQuality[static_cast<std::size_t>(whole) + 1];
+  const auto mix = [&](auto QualityRow::*column) { return between(a.*column, b.*column, t); };
+  return {mix(&QualityRow::path_samples), mix(&QualityRow::gather_samples), mix(&QualityRow::audit_pixels),
+          mix(&QualityRow::audit_samples), mix(&QualityRow::max_link_error), mix(&QualityRow::gather_link_error),
+          mix(&QualityRow::direct_samples), mix(&QualityRow::hits_per_patch), mix(&QualityRow::grid_columns),
+          mix(&QualityRow::max_senders), mix(&QualityRow::vertex_samples), mix(&QualityRow::samples_per_gather),
+          mix(&QualityRow::reflected_rays), mix(&QualityRow::next_events), mix(&QualityRow::full_lines),
+          mix(&QualityRow::threshold_scale), mix(&QualityRow::noise_share), mix(&QualityRow::photons)};
+}
+
+float level_of(const RenderRequest& request, const Effort& effort) {
+  const bool is_paths = request.integrator == RenderRequest::Integrator::kPaths || request.integrator == RenderRequest::Integrator::kPhotonMap;
+  if (effort.level) return *effort.level;
+  if (request.error) {
+    const double preview = is_paths ? kPathsErrorOfPreview : kErrorOfPreview;
+    const double level = std::log(preview / *request.error) / std::log(is_paths ? kPathsErrorPerLevel : kErrorPerLevel);
+    return static_cast<float>(std::clamp(level, 0.0, static_cast<double>(kMostLevel)));
+  }
+  return static_cast<float>(request.quality);
+}
 
 void resolve_size(const RenderRequest& request, const Camera& camera, Settings& settings) {
   const double aspect = camera.aspect > 0 ? static_cast<double>(camera.aspect) : kDefaultAspect;
@@ -117,9 +162,13 @@ float grey_threshold(float scale, float mean_radiance) {
   return static_cast<float>(static_cast<double>(scale) * visible_difference(grey) / grey * static_cast<double>(mean_radiance));
 }
 
-float noise_share(const RenderRequest& request) {
-  return request.samples ? 0 : kQuality[static_cast<std::size_t>(request.quality)].noise_share;
+float noise_share(const RenderRequest& request, const Settings& settings) {
+  if (request.samples) return 0;
+  const double error = static_cast<double>(settings.target_error);
+  return error > 0 ? static_cast<float>(kNoiseOfTarget * error * error) : row_at(settings.level).noise_share;
 }
+
+Target target_of(const RenderRequest& request) { return {request.error.value_or(0), request.time.value_or(0)}; }
 
 float mean_radiance(const RadiositySolution& solution) {
   if (solution.hierarchy.nodes.empty()) return 0;
@@ -132,25 +181,29 @@ float mean_radiance(const RadiositySolution& solution) {
 
 /// (paths.6): from quality to quality noise and bias fall together, a disc's area as n^(-1/3).
 void resolve_photons(const RenderRequest& request, OriginSet origins, double share, Settings& settings) {
-  const auto all = static_cast<double>(kQuality[static_cast<std::size_t>(request.quality)].photons);
-  settings.photons = request.photons ? static_cast<std::uint64_t>(*request.photons) : static_cast<std::uint64_t>(share * all);
+  const double beyond = std::exp2(2 * std::max(0.0, static_cast<double>(settings.level) - 3));
+  const double all = static_cast<double>(row_at(settings.level).photons) * beyond;
+  settings.photons = request.photons ? *request.photons : static_cast<std::uint64_t>(share * all);
   settings.photon_batches = static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.photons, kPhotonBatches));
   settings.photon_origins = origins;
   settings.photon_radius = request.radius.value_or(0);
   settings.photon_crossings = kCrossings * std::pow(static_cast<float>(settings.photons) / 4e6F, 2.0F / 3);
 }
 
-Settings resolve_settings(const RenderRequest& request, const Camera& camera) {
-  const QualityRow& quality = kQuality[static_cast<std::size_t>(request.quality)];
-  const bool is_path = request.integrator == RenderRequest::Integrator::kPathTrace;
+Settings resolve_settings(const RenderRequest& request, const Camera& camera, const Effort& effort) {
   Settings settings;
-  settings.integrator = integrator_of(request);
+  settings.level = level_of(request, effort);
+  settings.target_error = static_cast<float>(request.error.value_or(0));
+  const QualityRow quality = row_at(settings.level);
+  const bool is_path = effort.by_paths || request.integrator == RenderRequest::Integrator::kPathTrace;
+  settings.integrator = is_path ? Settings::Integrator::kPathTrace : integrator_of(request);
   resolve_size(request, camera, settings);
   settings.tile = request.tile;
   settings.seed = request.seed;
   settings.camera_samples = request.samples ? static_cast<std::uint32_t>(*request.samples)
                                             : (is_path ? quality.path_samples : quality.gather_samples);
-  const bool is_default = is_default_gather(request);
+  if (request.error && !request.samples) settings.camera_samples = std::min(settings.camera_samples, kFirstSamples);
+  const bool is_default = !is_path && is_default_gather(request);
   const bool may_differ = is_default && !request.samples;
   settings.max_camera_samples = may_differ ? kMostSamples * settings.camera_samples : settings.camera_samples;
   settings.shares_light = is_default && request.sharing && settings.camera_samples > 1 ? 1 : 0;

@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <nlohmann/json.hpp>
+
 #include "estimate/gather.h"
 #include "estimate/mesh_lines.h"
 #include "estimate/paper_gather.h"
@@ -69,24 +71,48 @@ SampleRadiance integrator(const LitView& lit, const Film& film) {
   };
 }
 
-std::vector<std::byte> run_tile(const LitView& lit, std::uint32_t index) {
+TilePixels pixels_of(TileResult result) {
+  return {std::move(result.pixels), std::move(result.aovs), std::move(result.sharing), std::move(result.needs)};
+}
+
+/// What a tile starts from.
+Result<TileResult> tile_before(const Settings& settings, std::uint32_t index, std::span<const std::byte> before) {
+  RADFARM_TRY(TileResult result, decode_tile_result(before));
+  const bool is_whole = result.rect == tile_rect(settings, index) && (settings.aovs != 0) == !result.aovs.empty() &&
+                        (settings.shares_light != 0) == !result.sharing.empty();
+  if (!is_whole) return fail(Code::kDataLoss, "tile " + std::to_string(index) + " cannot go on from another tile's sums");
+  return result;
+}
+
+Result<std::vector<std::byte>> run_tile(const LitView& lit, std::uint32_t index, const TaskRound& of) {
   const Settings& settings = lit.view.settings;
   TileResult result;
   result.rect = tile_rect(settings, index);
   Film film = film_of(lit.view, settings.effects_off);
   film.cone_samples = settings.camera_samples;
   const SampleRadiance radiance = integrator(lit, film);
-  const SampleBudget budget{settings.camera_samples, settings.max_camera_samples, settings.noise};
+  const SampleBudget budget = budget_of(settings, of.round);
   if (lit.is_paper()) {
-    result.pixels = render_paper_tile(lit.world, film, result.rect, settings.camera_samples, radiance, result.counters);
+    // Of its own kind of sums; these cannot go on.
+    const std::uint32_t samples = samples_of(budget, {});
+    result.pixels = render_paper_tile(lit.world, film, result.rect, samples, radiance, result.counters);
     return encode(result);
   }
   const Kept kept{settings.aovs != 0, settings.shares_light != 0};
-  TilePixels tile = render_tile(film, result.rect, budget, radiance, result.counters, kept,
-                                emission_integrator(lit));
+  TilePixels tile;
+  if (of.before.empty()) {
+    tile = render_tile(film, result.rect, budget, radiance, result.counters, kept, emission_integrator(lit));
+  } else {
+    RADFARM_TRY(TileResult before, tile_before(settings, index, of.before));
+    if (is_even(budget) != before.needs.empty()) return fail(Code::kDataLoss, "a tile cannot go on by another budget");
+    result.counters = before.counters;
+    tile = resume_tile(film, result.rect, budget, radiance, result.counters, kept, emission_integrator(lit),
+                       pixels_of(std::move(before)));
+  }
   result.pixels = std::move(tile.light);
   result.aovs = std::move(tile.aovs);
   result.sharing = std::move(tile.sharing);
+  result.needs = std::move(tile.needs);
   return encode(result);
 }
 
@@ -97,28 +123,39 @@ SeenDiscSettings seen_disc_settings(const Settings& settings) {
   return discs;
 }
 
-std::vector<std::byte> run_photons(const LitView& lit, std::uint32_t batch) {
+Result<std::vector<std::byte>> run_photons(const LitView& lit, std::uint32_t task, const TaskRound& of) {
   const Settings& settings = lit.view.settings;
   const LitView::Photons& photons = lit.photons(film_of(lit.view, settings.effects_off));
   const std::size_t pixels = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
-  const PathBatch paths{settings.seed, batch, paths_of_batch(settings, batch)};
-  return encode(photons.set ? bring_light(lit.world, *photons.set, photons.seen.shown, pixels, settings.photon_origins, paths)
-                            : bring_photons(lit.world, photons.seen, pixels, settings.photon_origins, paths));
+  const std::uint64_t paths = paths_of_batch(settings, task);
+  PhotonResult sum{0, std::vector<PhotonPixel>(pixels)};
+  if (!of.before.empty()) {
+    RADFARM_TRY(sum, decode_photon_result(of.before));
+    if (sum.pixels.size() != pixels || sum.paths % paths != 0) {
+      return fail(Code::kDataLoss, "photons cannot go on from another image's");
+    }
+  }
+  for (std::uint64_t pass = sum.paths / paths; pass < photon_passes(of.round); ++pass) {
+    const PathBatch batch{settings.seed, task + pass * settings.photon_batches, paths};
+    add(photons.set ? bring_light(lit.world, *photons.set, photons.seen.shown, pixels, settings.photon_origins, batch)
+                    : bring_photons(lit.world, photons.seen, pixels, settings.photon_origins, batch),
+        sum);
+  }
+  return encode(sum);
 }
 
-std::vector<std::byte> run_audit(const Prepared::Parts& parts, std::uint32_t index) {
+std::vector<std::byte> run_audit(const Prepared::Parts& parts, const Round& round, std::uint32_t index) {
   const Settings& settings = parts.settings;
   // Its rays are lines: the audit is to see what filtering does.
-  const Film film = film_of(parts.lit[0]->view, settings.exactly_off);
+  Film film = film_of(parts.lit[0]->view, settings.exactly_off);
+  film.seed = audit_seed(settings, round);
   const bool has_interreflection = !contains(settings.exactly_off, Effect::kInterreflection);
   const SampleRadiance path = path_integrator(parts.audited(), has_interreflection);
   AuditResult result;
-  for (const AuditPixel& chosen : audit_task_pixels(settings, index)) {
+  for (const AuditPixel& chosen : audit_task_pixels(settings, round, index)) {
     AuditResult::Pixel pixel{chosen.x, chosen.y, {}, {}};
-    pixel.first = sample_pixel(film, Stream::kAuditFirst, chosen.x, chosen.y, 0, settings.audit_samples, path,
-                               result.counters);
-    pixel.second = sample_pixel(film, Stream::kAuditSecond, chosen.x, chosen.y, 0, settings.audit_samples, path,
-                                result.counters);
+    pixel.first = sample_pixel(film, Stream::kAuditFirst, chosen.x, chosen.y, 0, round.audit_samples, path, result.counters);
+    pixel.second = sample_pixel(film, Stream::kAuditSecond, chosen.x, chosen.y, 0, round.audit_samples, path, result.counters);
     result.pixels.push_back(pixel);
   }
   return encode(result);
@@ -189,24 +226,47 @@ Result<Prepared> Prepared::open(std::span<const std::byte> scene, std::span<cons
   return Prepared(std::move(parts));
 }
 
-Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view) {
+Result<Round> first_round(std::span<const std::byte> view) {
   RADFARM_TRY(const std::vector<View> views, decode_views(view));
-  return cut_tasks(views[0].settings, views.size());
+  return first_round(views[0].settings);
 }
 
-Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task) {
+Result<nlohmann::json> expected_cost_of(std::span<const std::byte> view) {
+  RADFARM_TRY(const std::vector<View> views, decode_views(view));
+  const nlohmann::json facts = nlohmann::json::parse(views[0].facts, nullptr, /*allow_exceptions=*/false);
+  if (!facts.is_object() || !facts.contains("expected")) return fail(Code::kDataLoss, "view: its facts say no cost");
+  return facts["expected"];
+}
+
+Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view, const Round& round) {
+  RADFARM_TRY_STATUS(check(round));
+  RADFARM_TRY(const std::vector<View> views, decode_views(view));
+  return cut_tasks(views[0].settings, round, views.size());
+}
+
+Result<std::vector<Task>> cut_tasks(std::span<const std::byte> view) {
+  RADFARM_TRY(const Round round, first_round(view));
+  return cut_tasks(view, round);
+}
+
+Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task, const TaskRound& of) {
+  RADFARM_TRY_STATUS(check(of.round));
   const Prepared::Parts& parts = prepared.parts();
-  const std::vector<Task> tasks = cut_tasks(parts.settings, parts.lit.size());
+  const std::vector<Task> tasks = cut_tasks(parts.settings, of.round, parts.lit.size());
   if (std::find(tasks.begin(), tasks.end(), task) == tasks.end()) {
     return fail(Code::kInvalidArgument, "the view has no such task");
   }
-  if (task.kind == Task::Kind::kAudit) return run_audit(parts, task.index);
+  if (task.kind == Task::Kind::kAudit) return run_audit(parts, of.round, task.index);
   if (task.kind == Task::Kind::kPhotons) {
     const std::uint32_t batches = parts.settings.photon_batches;
-    return run_photons(*parts.lit[task.index / batches], task.index % batches);
+    return run_photons(*parts.lit[task.index / batches], task.index % batches, of);
   }
   const auto tiles = static_cast<std::uint32_t>(tile_count(parts.settings));
-  return run_tile(*parts.lit[task.index / tiles], task.index % tiles);
+  return run_tile(*parts.lit[task.index / tiles], task.index % tiles, of);
+}
+
+Result<std::vector<std::byte>> run_task(const Prepared& prepared, const Task& task) {
+  return run_task(prepared, task, {first_round(prepared.parts().settings), {}});
 }
 
 }  // namespace radfarm

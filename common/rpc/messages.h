@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/status.h"
+#include "frame/round.h"
 #include "frame/task.h"
 
 namespace radfarm {
@@ -68,6 +69,7 @@ struct JobProgress {
   std::uint32_t results_diverged = 0;
   std::string waiting_for;
   JobPhase phase;
+  std::uint32_t round = 0;  // 1 for the first
   friend bool operator==(const JobProgress&, const JobProgress&) = default;
 };
 
@@ -75,6 +77,14 @@ struct Artifact {
   std::string name;
   BlobRef blob;
   friend bool operator==(const Artifact&, const Artifact&) = default;
+};
+
+/// Expected CPU seconds of what might be asked for.
+struct CostEstimate {
+  std::string ask;
+  double cpu_low_seconds = 0;
+  double cpu_high_seconds = 0;
+  friend bool operator==(const CostEstimate&, const CostEstimate&) = default;
 };
 
 struct JobStatus {
@@ -86,6 +96,9 @@ struct JobStatus {
   JobProgress progress;
   JobFailure failure;  // meaningful iff state is kFailed
   std::vector<Artifact> artifacts;
+  bool target_missed = false;
+  std::vector<CostEstimate> estimates = {};
+  double cpu_seconds = 0;
 };
 
 struct WorkerHello {
@@ -115,6 +128,8 @@ struct Lease {
   TaskInputs inputs;
   std::uint32_t attempt = 0;
   std::string token;
+  Round round = {};
+  std::string before = {};  // digest of the same task's result in the round before; empty: it starts anew
   friend bool operator==(const Lease&, const Lease&) = default;
 };
 
@@ -129,6 +144,7 @@ struct CommitHeader {
   BlobRef result;
   double cpu_seconds = 0;
   std::int64_t peak_memory_bytes = 0;
+  std::uint32_t round = 0;
 };
 
 enum class FailureClass { kTask = 1, kWorker, kPreempted, kData };

@@ -130,7 +130,14 @@ Result<JobStatus> parse(const v1::RenderJob& message) {
   status.progress = {progress.tasks_total(),     progress.tasks_committed(),  progress.tasks_leased(),
                      progress.attempts_failed(), progress.attempts_expired(), progress.results_diverged(),
                      progress.waiting_for(),
-                     {progress.phase(), progress.phase_done(), progress.phase_total()}};
+                     {progress.phase(), progress.phase_done(), progress.phase_total()},
+                     progress.round()};
+  status.target_missed = message.target_missed();
+  status.cpu_seconds = message.cpu_s();
+  for (const v1::Estimate& estimate : message.estimates()) {
+    RADFARM_TRY_STATUS(check_name(estimate.ask(), 1, limits::kIdBytes, "job.estimates.ask"));
+    status.estimates.push_back({estimate.ask(), estimate.cpu_low_s(), estimate.cpu_high_s()});
+  }
   const v1::Failure& failure = message.failure();
   status.failure = {static_cast<JobFailure::Reason>(failure.reason()), {code_from(failure.code()), failure.message()}};
   for (const v1::Artifact& artifact : message.artifacts()) {
@@ -157,6 +164,15 @@ void encode(const JobStatus& status, v1::RenderJob& message) {
   progress.set_phase(status.progress.phase.name);
   progress.set_phase_done(status.progress.phase.done);
   progress.set_phase_total(status.progress.phase.total);
+  progress.set_round(status.progress.round);
+  message.set_target_missed(status.target_missed);
+  message.set_cpu_s(status.cpu_seconds);
+  for (const CostEstimate& estimate : status.estimates) {
+    v1::Estimate& added = *message.add_estimates();
+    added.set_ask(estimate.ask);
+    added.set_cpu_low_s(estimate.cpu_low_seconds);
+    added.set_cpu_high_s(estimate.cpu_high_seconds);
+  }
   if (status.state == JobState::kFailed) {
     message.mutable_failure()->set_reason(static_cast<v1::Failure::Reason>(status.failure.reason));
     message.mutable_failure()->set_code(static_cast<std::uint32_t>(status.failure.error.code));
@@ -197,7 +213,12 @@ Result<Lease> parse(const v1::Lease& message) {
   const Task task{static_cast<Task::Kind>(message.task().kind()), message.task().index()};
   const TaskInputs inputs{message.inputs().scene_digest(), message.inputs().solution_digest(),
                           message.inputs().view_digest()};
-  return Lease{message.job_id(), message.slot(), task, inputs, message.attempt(), message.token()};
+  const v1::Round& given = message.round();
+  const Round round{given.number(), given.audit_pixels(), given.audit_samples(), given.scale()};
+  RADFARM_TRY_STATUS(check(round));
+  if (!message.before_digest().empty()) RADFARM_TRY_STATUS(check_digest(message.before_digest(), "before_digest"));
+  return Lease{message.job_id(), message.slot(), task, inputs, message.attempt(), message.token(), round,
+               message.before_digest()};
 }
 
 void encode(const Lease& lease, v1::Lease& message) {
@@ -210,6 +231,11 @@ void encode(const Lease& lease, v1::Lease& message) {
   message.mutable_inputs()->set_view_digest(lease.inputs.view);
   message.set_attempt(lease.attempt);
   message.set_token(lease.token);
+  message.mutable_round()->set_number(lease.round.number);
+  message.mutable_round()->set_audit_pixels(lease.round.audit_pixels);
+  message.mutable_round()->set_audit_samples(lease.round.audit_samples);
+  message.mutable_round()->set_scale(lease.round.scale);
+  message.set_before_digest(lease.before);
 }
 
 Result<CommitHeader> parse(const v1::CommitTaskRequest::Header& message) {
@@ -226,7 +252,8 @@ Result<CommitHeader> parse(const v1::CommitTaskRequest::Header& message) {
                       message.token(),
                       {message.digest(), message.size()},
                       cpu_seconds,
-                      message.peak_memory_bytes()};
+                      message.peak_memory_bytes(),
+                      message.round()};
 }
 
 void encode(const CommitHeader& header, v1::CommitTaskRequest::Header& message) {
@@ -238,6 +265,7 @@ void encode(const CommitHeader& header, v1::CommitTaskRequest::Header& message) 
   message.set_size(header.result.size);
   message.set_cpu_seconds(header.cpu_seconds);
   message.set_peak_memory_bytes(header.peak_memory_bytes);
+  message.set_round(header.round);
 }
 
 Result<TaskFailure> parse(const v1::FailTaskRequest& message) {

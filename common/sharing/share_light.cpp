@@ -73,13 +73,26 @@ struct Pixels {
   std::span<const SharingSums> sums;
   std::span<PixelSums> light;
   std::span<AovSums> aovs;
+  std::span<float> noise;
 };
+
+/// Variance of a pixel's mean that the halves' fits show, and what of its own is of specular light, which is not shared.
+float shared_noise(const PixelSums& own, const SharingSums& sums, const std::vector<Fit>& fits, std::size_t lane) {
+  const auto half = [&](std::size_t h) {
+    return luminance(reflected(sums.albedo, own.samples, fitted(fits[h], lane), own.direct) +
+                     reflected(sums.albedo, own.samples, fitted(fits[2 + h], lane), own.indirect));
+  };
+  const double n = own.samples, off = (half(0) - half(1)) / (2 * n), all = luminance(own.reflected());
+  const double specular = all > 0 && own.samples > 1 ? luminance(own.specular) / all : 0;
+  return static_cast<float>(off * off + (specular > 0 ? specular * specular * variance_of_mean(own) : 0));
+}
 
 void replace_light(const Pixels& pixels, std::size_t i, const std::vector<Fit>& fits, std::size_t lane) {
   PixelSums& pixel = pixels.light[i];
   const SharingSums& sums = pixels.sums[i];
   const SpectrumD before = pixel.direct + pixel.indirect;
   const double mean_before = luminance(pixel.reflected()) / pixel.samples;
+  pixels.noise[i] = shared_noise(pixel, sums, fits, lane);
   pixel.direct = reflected(sums.albedo, pixel.samples, mean_of(fits[0], fits[1], lane), pixel.direct);
   pixel.indirect = reflected(sums.albedo, pixel.samples, mean_of(fits[2], fits[3], lane), pixel.indirect);
   const double mean = luminance(pixel.reflected()) / pixel.samples;
@@ -115,13 +128,16 @@ void share_block(const Planes& planes, const PixelBlock& block, const Pixels& pi
 
 }  // namespace
 
-void share_light(int width, int height, std::span<const SharingSums> sums, std::span<PixelSums> pixels,
-                 std::span<AovSums> aovs) {
+std::vector<float> share_light(int width, int height, std::span<const SharingSums> sums, std::span<PixelSums> pixels,
+                               std::span<AovSums> aovs) {
   const Planes planes = make_planes(width, height, pixels, sums);
   const std::vector<PixelBlock> blocks = cut_blocks(width, height);
+  std::vector<float> noise(pixels.size());
+  std::transform(pixels.begin(), pixels.end(), noise.begin(), [](const PixelSums& p) { return noise_of(p); });
   parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) share_block(planes, blocks[b], {sums, pixels, aovs});
+    for (std::size_t b = begin; b < end; ++b) share_block(planes, blocks[b], {sums, pixels, aovs, noise});
   });
+  return noise;
 }
 
 }  // namespace radfarm

@@ -74,6 +74,17 @@ bool is_interval(const json& value) {
   return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
 }
 
+std::string round_line(const json& round) {
+  const json value = round.value("relative_rmse", json()), interval = round.value("ci95", json());
+  std::string error = "not measured";
+  if (is_interval(interval)) {
+    error = (value.is_number() ? percent(value) : "< " + percent(interval[1])) + " (95 %: " + percent(interval[0]) + " to " +
+            percent(interval[1]) + ")";
+  }
+  return format("%-12s %10.1f %10.2f %10.2f   %s\n", round.value("kind", std::string("?")).c_str(), number(round, "samples"),
+                number(round, "cpu_s"), number(round, "wall_s"), error.c_str());
+}
+
 }  // namespace
 
 std::string accuracy_line(const json& report) {
@@ -89,6 +100,33 @@ std::string accuracy_line(const json& report) {
   }
   if (is_interval(interval)) return "relative error < " + percent(interval[1]) + " (95 %)" + audited;
   return "relative error: undefined, the image is black" + audited;
+}
+
+std::string rounds_table(const json& report) {
+  std::string text;
+  const json accuracy = report.value("accuracy", json::object());
+  const json target = accuracy.value("target", json()), met = accuracy.value("target_met", json());
+  const json rounds = report.value("rounds", json::array());
+  if (target.is_number() || report.contains("time")) {
+    text += format("\n%-5s %-12s %10s %10s %10s   %s\n", "round", "", "samples", "CPU s", "wall s", "relative error");
+    int number = 0;
+    for (const json& round : rounds) {
+      if (round.is_object()) text += format("%-5d ", ++number) + round_line(round);
+    }
+  }
+  if (target.is_number()) {
+    const char* const verdict = met.is_boolean() ? (met.get<bool>() ? "met" : "NOT met") : "undefined, the image is black";
+    text += "target: relative error below " + percent(target) + ": " + verdict + "\n";
+  }
+  if (report.contains("time") && report["time"].is_object()) {
+    text += format("target: %.4g s; it took %.1f s\n", number(report["time"], "target_s"), number(report["time"], "elapsed_s"));
+  }
+  const json halving = report.value("next_halving", json());
+  if (halving.is_object()) {
+    text += format("half the error would cost about %.3g CPU s more, %.3g s of wall time (by %s)\n", number(halving, "cpu_s"),
+                   number(halving, "wall_s"), short_text(halving.value("from", json())).c_str());
+  }
+  return text;
 }
 
 std::string effects_table(const json& plan) {
@@ -118,6 +156,11 @@ std::string effects_table(const json& plan) {
     text += format("expected cost: %.1f to %.1f CPU s, of which the audit %.1f", cost["cpu_s"][0].get<double>(),
                    cost["cpu_s"][1].get<double>(), number(cost, "audit_cpu_s"));
     text += groups.size() > 1 ? format("; %zu light groups are as many renders\n", groups.size()) : "\n";
+    for (const json& other : cost.value("others", json::array())) {
+      if (!other.is_object() || !is_interval(other.value("cpu_s", json()))) continue;
+      text += format("  %-10s %8.1f to %.1f CPU s\n", other.value("ask", std::string("?")).c_str(),
+                     other["cpu_s"][0].get<double>(), other["cpu_s"][1].get<double>());
+    }
   }
   return text;
 }
@@ -131,7 +174,7 @@ std::string closing_table(const json& report) {
   if (report.contains("warnings")) {
     for (const json& warning : report["warnings"]) text.append("warning: ").append(short_text(warning)).append("\n");
   }
-  return text + accuracy_line(report) + "\n";
+  return text + accuracy_line(report) + "\n" + rounds_table(report);
 }
 
 }  // namespace radfarm::cli

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "cli/farm_client.h"
 #include "frame/request.h"
+#include "process/exit_code.h"
 
 namespace radfarm::cli {
 
@@ -40,5 +41,8 @@ Result<nlohmann::json> deliver(FarmClient& client, const JobStatus& job, const O
 
 /// The error that a job's end means, or nothing for SUCCEEDED.
 Status check_succeeded(const JobStatus& job);
+
+/// How a command ends that waited for a job that succeeded.
+inline ExitCode exit_code_of(const JobStatus& job) { return job.target_missed ? ExitCode::kTargetNotMet : ExitCode::kDone; }
 
 }  // namespace radfarm::cli

@@ -67,6 +67,16 @@ Result<JobStatus> FarmClient::cancel(const std::string& id) {
   return wire::parse(response);
 }
 
+Result<JobStatus> FarmClient::extend(const std::string& id, double error) {
+  v1::ExtendRenderJobRequest request;
+  v1::RenderJob response;
+  request.set_id(id);
+  request.set_error(error);
+  RADFARM_TRY_STATUS(
+      repeat([&](grpc::ClientContext& context) { return stub_->ExtendRenderJob(&context, request, &response); }));
+  return wire::parse(response);
+}
+
 Status FarmClient::watch(const std::string& id, const std::function<void(const JobStatus&)>& on_status) {
   for (;;) {
     Status status = rpc::with_retries({}, [&] { return watch_once(id, on_status); });

@@ -22,6 +22,7 @@ class FarmClient {
   Result<JobStatus> get(const std::string& id);
   Result<std::vector<JobStatus>> list();
   Result<JobStatus> cancel(const std::string& id);
+  Result<JobStatus> extend(const std::string& id, double error);
   const rpc::BlobClient& blobs() const { return blobs_; }
 
   /// Calls `on_status` now and after each change until the job is terminal. CANCELLED after stop_watching().

@@ -1,4 +1,4 @@
-// `radfarm jobs list|get|wait|fetch|cancel`: the jobs of a farm that runs elsewhere.
+// `radfarm jobs list|get|wait|fetch|cancel|extend|estimate`: the jobs of a farm that runs elsewhere.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/deliver.h"
 #include "cli/follow.h"
+#include "cli/request_flags.h"
 #include "process/end_on_signal.h"
 #include "process/signals.h"
 #include "rpc/channel.h"
@@ -17,7 +18,7 @@ namespace radfarm::cli {
 namespace {
 
 struct JobsFlags {
-  std::string server, id;
+  std::string server, id, error;
   bool json = false;
   double timeout_seconds = 0;  // 0: none
   Outputs outputs;
@@ -37,10 +38,17 @@ nlohmann::json to_json(const JobStatus& job) {
                            {"attempts_expired", p.attempts_expired},
                            {"results_diverged", p.results_diverged},
                            {"waiting_for", p.waiting_for},
+                           {"round", p.round},
                            {"phase", p.phase.name},
                            {"phase_done", p.phase.done},
                            {"phase_total", p.phase.total}}},
+                         {"target_missed", job.target_missed},
+                         {"cpu_s", job.cpu_seconds},
+                         {"estimates", nlohmann::json::array()},
                          {"artifacts", nlohmann::json::array()}};
+  for (const CostEstimate& e : job.estimates) {
+    json["estimates"].push_back({{"ask", e.ask}, {"cpu_s", {e.cpu_low_seconds, e.cpu_high_seconds}}});
+  }
   if (job.state == JobState::kFailed) {
     json["failure"] = {{"reason", to_string(job.failure.reason)}, {"message", job.failure.error.message}};
   }
@@ -112,7 +120,33 @@ Result<ExitCode> wait(const JobsFlags& flags) {
   progress.finish();
   if (!done) return tl::unexpected(done.error());
   RADFARM_TRY_STATUS(check_succeeded(*done));
-  return show(flags, *done);
+  RADFARM_TRY([[maybe_unused]] const ExitCode shown, show(flags, *done));
+  return exit_code_of(*done);
+}
+
+Result<ExitCode> extend(const JobsFlags& flags) {
+  const Result<double> error = parse_error_target(flags.error);
+  if (!error) return usage_error(error.error());
+  const EndOnSignal interrupted("radfarm");
+  FarmClient client(flags.server);
+  RADFARM_TRY(const JobStatus job, client.extend(flags.id, *error));
+  return show(flags, job);
+}
+
+Result<ExitCode> estimate(const JobsFlags& flags) {
+  const EndOnSignal interrupted("radfarm");
+  FarmClient client(flags.server);
+  RADFARM_TRY(const JobStatus job, client.get(flags.id));
+  if (job.estimates.empty()) {
+    return fail(Code::kFailedPrecondition,
+                "job " + job.id + " is " + to_string(job.state) + " and has not been prepared yet; ask again");
+  }
+  if (flags.json) return show(flags, job);
+  for (const CostEstimate& e : job.estimates) {
+    std::printf("%-10s %10.1f to %.1f CPU s expected\n", e.ask.c_str(), e.cpu_low_seconds, e.cpu_high_seconds);
+  }
+  std::printf("%-10s %10.1f CPU s of tasks so far\n", "", job.cpu_seconds);
+  return ExitCode::kDone;
 }
 
 Result<ExitCode> fetch(const JobsFlags& flags) {
@@ -129,7 +163,7 @@ Result<ExitCode> fetch(const JobsFlags& flags) {
   RADFARM_TRY_STATUS(check_succeeded(job));
   const radfarm::Progress progress({}, events.interruption());
   RADFARM_TRY([[maybe_unused]] const nlohmann::json report, deliver(client, job, flags.outputs, progress));
-  return ExitCode::kDone;
+  return exit_code_of(job);
 }
 
 using JobVerb = Result<ExitCode> (*)(const JobsFlags&);
@@ -158,10 +192,16 @@ void add_jobs(CLI::App& app, Action& action) {
   CLI::App& wait_verb = add_verb(jobs, action, flags, "wait", "wait until a job is over", wait);
   CLI::App& fetch_verb = add_verb(jobs, action, flags, "fetch", "write a finished job's image", fetch);
   CLI::App& cancel_verb = add_verb(jobs, action, flags, "cancel", "end a job", cancel);
-  for (CLI::App* verb : {&get_verb, &wait_verb, &fetch_verb, &cancel_verb}) {
+  CLI::App& extend_verb = add_verb(jobs, action, flags, "extend", "a finished job goes on, for a smaller error", extend);
+  CLI::App& estimate_verb =
+      add_verb(jobs, action, flags, "estimate", "the CPU time that a job, and others of its view, may take", estimate);
+  extend_verb.add_option("--error", flags->error, "the relative error to be below, such as 1%")->required();
+  for (CLI::App* verb : {&get_verb, &wait_verb, &fetch_verb, &cancel_verb, &extend_verb, &estimate_verb}) {
     verb->add_option("JOB", flags->id, "the id that submit printed")->required();
   }
-  for (CLI::App* verb : {&get_verb, &wait_verb, &cancel_verb}) verb->add_flag("--json", flags->json, "for programs");
+  for (CLI::App* verb : {&get_verb, &wait_verb, &cancel_verb, &extend_verb, &estimate_verb}) {
+    verb->add_flag("--json", flags->json, "for programs");
+  }
   wait_verb.add_option("--timeout", flags->timeout_seconds, "seconds, then exit code 6")->check(CLI::Range(0.0, 1e9));
   add_output_flags(fetch_verb, flags->outputs);
 }

@@ -36,7 +36,7 @@ void end(std::vector<ChildProcess>& children) {
 Result<LocalFarm> LocalFarm::start(const Options& options) {
   RADFARM_TRY(TemporaryDirectory folder, TemporaryDirectory::create("radfarm-render"));
   LocalFarm farm(std::move(folder));
-  RADFARM_TRY_STATUS(farm.start_coordinator(options.solutions));
+  RADFARM_TRY_STATUS(farm.start_coordinator(options));
   for (int i = 1; i <= options.workers; ++i) RADFARM_TRY_STATUS(farm.start_worker(i, options.threads));
   return farm;
 }
@@ -48,13 +48,15 @@ LocalFarm::~LocalFarm() {
   end(coordinator_);
 }
 
-Status LocalFarm::start_coordinator(const std::filesystem::path& solutions) {
+Status LocalFarm::start_coordinator(const Options& options) {
+  const std::filesystem::path& solutions = options.solutions;
   const std::string solution_bytes = std::to_string(solutions.empty() ? 0 : kSolutionBytes);
   RADFARM_TRY(ChildProcess child,
               ChildProcess::start(executable_folder() / "radfarm-coordinator",
                                   {"serve", "--listen", "127.0.0.1:0", "--worker-listen", "127.0.0.1:0", "--data",
                                    (folder_.path() / "data").string(), "--lease-ms", kLeaseMs, "--solutions",
-                                   solutions.string(), "--solution-bytes", solution_bytes, "--parent-pid",
+                                   solutions.string(), "--solution-bytes", solution_bytes, "--expected-threads",
+                                   std::to_string(options.workers * options.threads), "--parent-pid",
                                    std::to_string(::getpid())},
                                   ChildProcess::Stdout::kCapture));
   coordinator_.push_back(std::move(child));

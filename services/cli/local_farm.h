@@ -32,7 +32,7 @@ class LocalFarm {
 
  private:
   explicit LocalFarm(TemporaryDirectory folder) : folder_(std::move(folder)) {}
-  Status start_coordinator(const std::filesystem::path& solutions);
+  Status start_coordinator(const Options& options);
   Status start_worker(int number, int threads);
 
   TemporaryDirectory folder_;

@@ -59,8 +59,9 @@ std::string progress_line(const JobStatus& status, double seconds) {
   const int full = static_cast<int>(share(progress) * kBarWidth);
   const std::string bar =
       std::string(static_cast<std::size_t>(full), '#') + std::string(static_cast<std::size_t>(kBarWidth - full), '-');
-  std::snprintf(line.data(), line.size(), "%-10s [%s] %u/%u tasks  %.1f s", verb(status.state).c_str(), bar.c_str(),
-                progress.tasks_committed, progress.tasks_total, seconds);
+  const std::string round = progress.round > 1 ? "round " + std::to_string(progress.round) + "  " : "";
+  std::snprintf(line.data(), line.size(), "%-10s [%s] %s%u/%u tasks  %.1f s", verb(status.state).c_str(), bar.c_str(),
+                round.c_str(), progress.tasks_committed, progress.tasks_total, seconds);
   return line.data();
 }
 

@@ -24,21 +24,14 @@ struct RenderFlags {
   bool no_cache = false;
 };
 
-ExitCode exit_code_of(const nlohmann::json& report) {
-  const nlohmann::json accuracy = report.value("accuracy", nlohmann::json::object());
-  const bool missed = accuracy.value("target_met", nlohmann::json()) == nlohmann::json(false);
-  return missed ? ExitCode::kTargetNotMet : ExitCode::kDone;
-}
-
-Result<nlohmann::json> render(const RenderFlags& flags, const RenderRequest& request, Events& events) {
+Result<RenderedJob> render(const RenderFlags& flags, const RenderRequest& request, Events& events) {
   const SignalWatcher signals({SIGINT, SIGTERM, SIGCHLD}, [&](int signal) {
     if (signal == SIGCHLD) return events.child_ended();
     events.interrupt();
   });
   RADFARM_TRY_STATUS(check_folders(flags.outputs));
   RADFARM_TRY(LocalFarm farm, LocalFarm::start(local_farm_options(flags.workers, flags.threads, flags.no_cache)));
-  RADFARM_TRY(RenderedJob rendered, render_job(farm, flags.scene, request, flags.outputs, events));
-  return std::move(rendered.report);
+  return render_job(farm, flags.scene, request, flags.outputs, events);
 }
 
 Result<ExitCode> run_render(const RenderFlags& flags) {
@@ -48,9 +41,9 @@ Result<ExitCode> run_render(const RenderFlags& flags) {
   // The farm's own chatter is for whoever debugs it: RADFARM_LOG=info shows it.
   ::setenv("RADFARM_LOG", "warn", /*overwrite=*/0);
   Events events;
-  RADFARM_TRY(const nlohmann::json report, render(flags, *request, events));
-  std::fputs(closing_table(report).c_str(), stdout);
-  return exit_code_of(report);
+  RADFARM_TRY(const RenderedJob rendered, render(flags, *request, events));
+  std::fputs(closing_table(rendered.report).c_str(), stdout);
+  return exit_code_of(rendered.job);
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
+
+#include "cli/unbuilt_flags.h"
 
 namespace radfarm::cli {
 namespace {
@@ -79,7 +82,49 @@ Status parse_ies(const std::vector<std::string>& pairs, RenderRequest& request) 
   return {};
 }
 
+/// Seconds of "90", "60s", "2m", "1.5h".
+Result<double> parse_duration(const std::string& text) {
+  constexpr std::array<std::pair<char, double>, 3> kUnits = {{{'s', 1}, {'m', 60}, {'h', 3600}}};
+  double unit = 1;
+  std::string_view digits = text;
+  for (const auto& [letter, seconds] : kUnits) {
+    if (!digits.ends_with(letter)) continue;
+    unit = seconds;
+    digits.remove_suffix(1);
+    break;
+  }
+  const std::optional<double> number = parse_number<double>(digits);
+  if (number && *number > 0 && std::isfinite(*number)) return *number * unit;
+  return wrong("--time", text, "must be a wall time such as 90, 60s, 2m or 1.5h");
+}
+
+Status parse_target(const RequestFlags& flags, RenderRequest& request) {
+  if ((flags.quality ? 1 : 0) + (flags.error ? 1 : 0) + (flags.time ? 1 : 0) > 1) {
+    return fail(Code::kInvalidArgument, "--quality, --error and --time exclude each other");
+  }
+  if (flags.quality) {
+    const auto quality = quality_from_string(*flags.quality);
+    if (!quality) return fail(Code::kInvalidArgument, "--" + quality.error().message);
+    request.quality = *quality;
+  }
+  if (flags.error) {
+    RADFARM_TRY(request.error, parse_error_target(*flags.error));
+  }
+  if (flags.time) {
+    RADFARM_TRY(request.time, parse_duration(*flags.time));
+  }
+  return {};
+}
+
 }  // namespace
+
+Result<double> parse_error_target(const std::string& text) {
+  const bool is_percent = text.ends_with('%');
+  const std::optional<double> number = parse_number<double>(std::string_view(text).substr(0, text.size() - (is_percent ? 1 : 0)));
+  const double error = number ? (is_percent ? *number / 100 : *number) : 0;
+  if (error >= kLeastTargetError && error <= 1) return error;
+  return wrong("--error", text, "must be a relative error from .01% to 100%, such as 2% or .02");
+}
 
 void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--camera", flags.camera, "NAME or INDEX of a camera in the scene; default: the first, else framed");
@@ -91,7 +136,11 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--size", flags.size, "WIDTHxHEIGHT in pixels; default 640 wide at the camera's aspect");
   app.add_option("--up", flags.up, "Y or Z: which axis of an OBJ file points up");
   app.add_option("--integrator", flags.integrator, "auto, radiosity, gather, full-gather, paths (photon paths carry all light), photon-map (for comparison) or path-trace");
-  app.add_option("--quality", flags.quality, "preview, standard, high or reference");
+  app.add_option("--quality", flags.quality, "preview, standard, high or reference; default standard");
+  app.add_option("--error", flags.error,
+                 "instead of --quality, the relative error that the image is to be below, such as 2%; else exit code 5");
+  app.add_option("--time", flags.time,
+                 "instead of --quality, the wall time that it may take: 90, 60s, 2m or 1.5h; the image depends on the machine");
   app.add_option("--oracle", flags.oracle, "KS, KL, CS, HE or VAR: what judges the links of radiosity; docs/radiosity.md");
   app.add_option("--samples", flags.samples, "camera samples a pixel; default from --quality");
   app.add_option("--photons", flags.photons, "light paths: of --integrator paths and photon-map, and of a gather where the scene has caustics; default from --quality");
@@ -117,11 +166,9 @@ void add_request_flags(CLI::App& app, RequestFlags& flags) {
   app.add_option("--focus-distance", flags.focus_distance, "metres from the lens to what is sharp; default --look-at");
   app.add_option("--gather", flags.gather, "default, or paper: grid final gather as paper 1 has it, for comparison");
   app.add_option("--criterion", flags.criterion, "uniform");
-  flags.unbuilt.add_to(app);
 }
 
 Result<RenderRequest> parse_request(const RequestFlags& flags) {
-  RADFARM_TRY_STATUS(flags.unbuilt.check());
   RADFARM_TRY_STATUS(check_built("--integrator", flags.integrator));
   RADFARM_TRY_STATUS(check_built("--criterion", flags.criterion));
   RenderRequest request;
@@ -131,9 +178,7 @@ Result<RenderRequest> parse_request(const RequestFlags& flags) {
   const auto gather = gather_from_string(flags.gather);
   if (!gather) return fail(Code::kInvalidArgument, "--" + gather.error().message);
   request.gather = *gather;
-  const auto quality = quality_from_string(flags.quality);
-  if (!quality) return fail(Code::kInvalidArgument, "--" + quality.error().message);
-  request.quality = *quality;
+  RADFARM_TRY_STATUS(parse_target(flags, request));
   const auto oracle = oracle_from_string(flags.oracle);
   if (!oracle) return fail(Code::kInvalidArgument, "--" + oracle.error().message);
   request.oracle = *oracle;

@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 
 #include "base/status.h"
-#include "cli/unbuilt_flags.h"
 #include "frame/request.h"
 
 namespace radfarm::cli {
@@ -18,7 +17,8 @@ namespace radfarm::cli {
 struct RequestFlags {
   std::optional<std::string> camera, eye, look_at, up_vector, size;
   std::optional<double> fov, orthographic;
-  std::string up = "Y", integrator = "auto", quality = "standard", oracle = to_string(RenderRequest().oracle), effects, gather = "default", criterion = "uniform";
+  std::optional<std::string> quality, error, time;
+  std::string up = "Y", integrator = "auto", oracle = to_string(RenderRequest().oracle), effects, gather = "default", criterion = "uniform";
   std::optional<int> samples;
   std::optional<std::uint64_t> photons;
   std::optional<float> radius, link_error, threshold, lens_diameter, focus_distance;
@@ -27,10 +27,12 @@ struct RequestFlags {
   std::uint64_t seed = 1;
   int tile = 32;
   bool no_audit = false, no_sharing = false, mesh = false;
-  UnbuiltFlags unbuilt;
 };
 
 void add_request_flags(CLI::App& app, RequestFlags& flags);
+
+/// A relative error: "2%" or ".02". INVALID_ARGUMENT as below.
+Result<double> parse_error_target(const std::string& text);
 
 /// INVALID_ARGUMENT names the flag and says what would be right.
 Result<RenderRequest> parse_request(const RequestFlags& flags);

@@ -39,7 +39,7 @@ Result<ExitCode> submit(const SubmitFlags& flags, const RenderRequest& request) 
   RADFARM_TRY_STATUS(check_succeeded(*done));
   RADFARM_TRY(const nlohmann::json report, deliver(client, *done, flags.outputs, radfarm::Progress({}, events.interruption())));
   std::fputs(closing_table(report).c_str(), stdout);
-  return ExitCode::kDone;
+  return exit_code_of(*done);
 }
 
 Result<ExitCode> run_submit(const SubmitFlags& flags) {

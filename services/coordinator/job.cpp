@@ -7,12 +7,13 @@
 
 namespace radfarm {
 
-Job::Job(std::string id, JobSpec spec, std::int64_t created_unix_seconds, LeasePolicy policy)
+Job::Job(std::string id, JobSpec spec, std::int64_t created_unix_seconds, LeasePolicy policy, Target target)
     : id_(std::move(id)),
       spec_(std::move(spec)),
       created_unix_seconds_(created_unix_seconds),
       policy_(policy),
-      leases_(0, policy) {}
+      leases_(0, policy),
+      target_(target) {}
 
 void Job::enter(JobState state) {
   state_ = state;
@@ -20,7 +21,8 @@ void Job::enter(JobState state) {
   ++revision_;
   if (is_terminal(state)) {
     leases_.close();
-    results_.clear();
+    if (state != JobState::kSucceeded) results_.clear();
+    before_.clear();
   }
 }
 
@@ -36,13 +38,51 @@ bool Job::prepare_progress(JobPhase phase) {
   return true;
 }
 
-void Job::start_rendering(TaskInputs inputs, std::vector<Task> tasks) {
-  RADFARM_CHECK(state_ == JobState::kPreparing);
-  inputs_ = std::move(inputs);
+void Job::lay_out(const Round& round, std::vector<Task> tasks) {
+  round_ = round;
   tasks_ = std::move(tasks);
   leases_ = Leases(static_cast<std::uint32_t>(tasks_.size()), policy_);
-  results_.resize(tasks_.size());
+  results_.assign(tasks_.size(), {});
+  light_cpu_seconds_ = audit_cpu_seconds_ = 0;
+}
+
+void Job::start_rendering(PreparedJob prepared) {
+  RADFARM_CHECK(state_ == JobState::kPreparing);
+  inputs_ = std::move(prepared.inputs);
+  estimates_ = std::move(prepared.estimates);
+  before_.clear();
+  lay_out(prepared.round, std::move(prepared.tasks));
   enter(JobState::kRendering);
+}
+
+void Job::record(RoundFigures figures) {
+  RADFARM_CHECK(state_ == JobState::kAssembling);
+  if (!rounds_.empty() && rounds_.back().round.number == figures.round.number) rounds_.pop_back();
+  rounds_.push_back(std::move(figures));
+}
+
+void Job::go_on(const Round& round, std::vector<Task> tasks) {
+  RADFARM_CHECK(state_ == JobState::kAssembling && rounds_left_ > 0);
+  --rounds_left_;
+  before_ = std::move(results_);
+  for (std::size_t slot = 0; slot < before_.size(); ++slot) {
+    // Audits never go on: each has fresh pixels.
+    if (tasks_[slot].kind == Task::Kind::kAudit) before_[slot] = {};
+  }
+  kind_ = RoundFigures::Kind::kMoreSamples;
+  lay_out(round, std::move(tasks));
+  before_.resize(tasks_.size());
+  enter(JobState::kRendering);
+}
+
+void Job::prepare_anew(const Round& round, const Effort& effort) {
+  RADFARM_CHECK(state_ == JobState::kAssembling && rounds_left_ > 0);
+  --rounds_left_;
+  effort_ = effort;
+  kind_ = RoundFigures::Kind::kNewLight;
+  before_.clear();
+  lay_out(round, {});
+  enter(JobState::kPreparing);
 }
 
 void Job::start_assembling() {
@@ -50,9 +90,10 @@ void Job::start_assembling() {
   enter(JobState::kAssembling);
 }
 
-void Job::succeed(std::vector<Artifact> artifacts) {
+void Job::succeed(std::vector<Artifact> artifacts, bool target_missed) {
   RADFARM_CHECK(state_ == JobState::kAssembling);
   artifacts_ = std::move(artifacts);
+  target_missed_ = target_missed;
   enter(JobState::kSucceeded);
 }
 
@@ -74,10 +115,23 @@ Status Job::cancel() {
   return {};
 }
 
+Result<bool> Job::extend(const Target& target) {
+  if (target == target_ && (state_ == JobState::kSucceeded ? !target_missed_ : !is_terminal(state_))) return false;
+  if (state_ != JobState::kSucceeded) {
+    return radfarm::fail(Code::kFailedPrecondition,
+                         "job " + id_ + " is " + to_string(state_) + "; only one that has SUCCEEDED can be extended");
+  }
+  target_ = target;
+  target_missed_ = false;
+  rounds_left_ = kMostRounds;
+  enter(JobState::kAssembling);
+  return true;
+}
+
 bool Job::accepts(const std::string& worker_class) const {
   if (state_ != JobState::kRendering) return false;
   const Leases::Counts& counts = leases_.counts();
-  return worker_class_ == worker_class || (counts.leased == 0 && counts.committed == 0);
+  return worker_class_ == worker_class || (counts.leased == 0 && counts.committed == 0 && before_.empty());
 }
 
 std::optional<Lease> Job::lease(const std::string& worker, const std::set<std::string>& live, const std::string& token,
@@ -86,15 +140,17 @@ std::optional<Lease> Job::lease(const std::string& worker, const std::set<std::s
   const std::optional<Leases::Grant> grant = leases_.lease(worker, live, token, now);
   if (!grant) return std::nullopt;
   ++revision_;
-  return Lease{id_, grant->slot, tasks_[grant->slot], inputs_, grant->attempt, token};
+  const std::string before = before_.empty() ? "" : before_[grant->slot].digest;
+  return Lease{id_, grant->slot, tasks_[grant->slot], inputs_, grant->attempt, token, round_, before};
 }
 
-CommitOutcome Job::commit(const CommitHeader& header, const std::string& worker_name, std::vector<std::byte> bytes) {
-  if (state_ != JobState::kRendering) return CommitOutcome::kSuperseded;
+CommitOutcome Job::commit(const CommitHeader& header, const std::string& worker_name) {
+  if (state_ != JobState::kRendering || header.round != round_.number) return CommitOutcome::kSuperseded;
   const CommitOutcome outcome = leases_.commit(header.slot, header.token, header.result.digest);
   ++revision_;
   if (outcome != CommitOutcome::kCommitted) return outcome;
-  results_[header.slot] = std::move(bytes);
+  results_[header.slot] = header.result;
+  (tasks_[header.slot].kind == Task::Kind::kAudit ? audit_cpu_seconds_ : light_cpu_seconds_) += header.cpu_seconds;
   FarmFacts::Worker& worker = workers_[worker_name];
   worker.name = worker_name;
   ++worker.tasks;
@@ -122,14 +178,20 @@ void Job::release(const std::string& worker) {
 JobStatus Job::status() const {
   const Leases::Counts& counts = leases_.counts();
   const auto total = static_cast<std::uint32_t>(tasks_.size());
+  double cpu_seconds = 0;
+  for (const auto& [name, worker] : workers_) cpu_seconds += worker.cpu_seconds;
+  const std::uint32_t round = total > 0 || round_.number > 0 ? round_.number + 1 : 0;
   return {id_,
           spec_.display_name,
           state_,
           revision_,
           created_unix_seconds_,
-          {total, counts.committed, counts.leased, counts.failed, counts.expired, counts.diverged, "", phase_},
+          {total, counts.committed, counts.leased, counts.failed, counts.expired, counts.diverged, "", phase_, round},
           failure_.value_or(JobFailure{}),
-          artifacts_};
+          artifacts_,
+          target_missed_,
+          estimates_,
+          cpu_seconds};
 }
 
 std::vector<FarmFacts::Worker> Job::worker_facts() const {

@@ -51,6 +51,9 @@ void add_serve_flags(CLI::App& app, ServeFlags& flags) {
                  "folder for solved light that later jobs use again; default: solutions in --data");
   app.add_option("--solution-bytes", server.scheduler.prepare.solution_bytes,
                  "of all solved light together, what was used longest ago goes first; 0 keeps none");
+  app.add_option("--expected-threads", server.scheduler.expected_threads,
+                 "worker threads that a target of --time is shared out over, at least; default: those registered")
+      ->check(CLI::Range(1, 1 << 20));
   app.add_option("--parent-pid", flags.parent_pid, "end when this process ends, which must have started this one");
 }
 
@@ -92,6 +95,10 @@ int run(int argc, char** argv) {
   prepare.add_option("--solution-bytes", child.solution_bytes);
   prepare.add_option("--memory-bytes", child.memory_bytes);
   prepare.add_option("--parent-pid", child.parent_pid)->required();
+  prepare.add_option("--error", child.error);
+  prepare.add_option("--level", child.level);
+  prepare.add_flag("--by-paths", child.by_paths);
+  prepare.add_option("--threads", child.threads);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -69,13 +69,24 @@ class PhasePrinter {
   std::chrono::steady_clock::time_point printed_;
 };
 
+Effort effort_of(const PrepareChildOptions& options) {
+  Effort effort{{}, options.by_paths, options.threads};
+  if (options.level >= 0) effort.level = static_cast<float>(options.level);
+  return effort;
+}
+
 Status prepare_files(const PrepareChildOptions& options) {
   RADFARM_TRY_STATUS(die_with_parent(options.parent_pid));
-  RADFARM_TRY(const RenderRequest request, read_request(options.request));
+  RADFARM_TRY(RenderRequest request, read_request(options.request));
+  if (options.error > 0) {
+    request.error = options.error;
+    request.time.reset();
+    request.audit = true;
+  }
   RADFARM_TRY_STATUS(validate(request));
   PhasePrinter print;
   const PrepareContext context{{options.solutions, options.solution_bytes}, Progress(std::ref(print))};
-  RADFARM_TRY(const PreparedFiles files, prepare(options.scene, request, context));
+  RADFARM_TRY(const PreparedFiles files, prepare(options.scene, request, context, effort_of(options)));
   context.progress.report("store");
   RADFARM_TRY_STATUS(write_file_atomically(options.out / kSceneFile, files.scene));
   RADFARM_TRY_STATUS(write_file_atomically(options.out / kSolutionFile, files.solution));

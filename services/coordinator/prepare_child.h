@@ -25,6 +25,10 @@ struct PrepareChildOptions {
   std::uint64_t solution_bytes = 0; // of all together; 0: none is kept
   std::uint64_t memory_bytes = 0;   // 0: no limit
   int parent_pid = 0;
+  double error = 0;                 // relative, that a job's target is now; 0: as the request says
+  double level = -1;                // of Effort; below 0: none
+  bool by_paths = false;
+  int threads = 1;
 };
 
 /// Prepares and writes the three files into `out`. Prints lines of JSON on stdout: {"phase", "done", "total"} for each new

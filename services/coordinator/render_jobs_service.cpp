@@ -114,6 +114,16 @@ grpc::ServerUnaryReactor* RenderJobsService::CancelRenderJob(grpc::CallbackServe
   });
 }
 
+grpc::ServerUnaryReactor* RenderJobsService::ExtendRenderJob(grpc::CallbackServerContext* context,
+                                                             const v1::ExtendRenderJobRequest* request,
+                                                             v1::RenderJob* response) {
+  return rpc::reply(context, [&]() -> Status {
+    RADFARM_TRY(const JobStatus status, scheduler_.extend(request->id(), request->error()));
+    wire::encode(status, *response);
+    return {};
+  });
+}
+
 grpc::ServerWriteReactor<v1::RenderJob>* RenderJobsService::WatchRenderJob(grpc::CallbackServerContext*,
                                                                            const v1::WatchRenderJobRequest* request) {
   return new WatchReactor(scheduler_, request->id());

@@ -21,6 +21,9 @@ class RenderJobsService final : public v1::RenderJobs::CallbackService {
   grpc::ServerUnaryReactor* CancelRenderJob(grpc::CallbackServerContext* context,
                                             const v1::CancelRenderJobRequest* request,
                                             v1::RenderJob* response) override;
+  grpc::ServerUnaryReactor* ExtendRenderJob(grpc::CallbackServerContext* context,
+                                            const v1::ExtendRenderJobRequest* request,
+                                            v1::RenderJob* response) override;
   grpc::ServerWriteReactor<v1::RenderJob>* WatchRenderJob(grpc::CallbackServerContext* context,
                                                           const v1::WatchRenderJobRequest* request) override;
 

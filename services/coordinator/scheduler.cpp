@@ -35,13 +35,18 @@ Status check_attached(const RenderRequest& request, const JobSpec& spec) {
   return {};
 }
 
-Status check_request(const JobSpec& spec) {
+Result<RenderRequest> request_of(const JobSpec& spec) {
   const std::string& text = spec.render_request_json;
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (json.is_discarded()) return fail(Code::kInvalidArgument, "spec.render_request_json: is not JSON");
-  RADFARM_TRY(const RenderRequest request, render_request_from_json(json));
+  return render_request_from_json(json);
+}
+
+Result<RenderRequest> checked_request(const JobSpec& spec) {
+  RADFARM_TRY(RenderRequest request, request_of(spec));
   RADFARM_TRY_STATUS(check_attached(request, spec));
-  return validate(request);
+  RADFARM_TRY_STATUS(validate(request));
+  return request;
 }
 
 Status check_stored(const JobSpec& spec, const BlobStore& blobs) {
@@ -90,7 +95,7 @@ Result<JobStatus> Scheduler::create(const std::string& request_id, const JobSpec
   if (request_id.empty() || request_id.size() > limits::kIdBytes) {
     return fail(Code::kInvalidArgument, "request_id: must have 1 to 100 bytes");
   }
-  RADFARM_TRY_STATUS(check_request(spec));
+  RADFARM_TRY(const RenderRequest request, checked_request(spec));
   const std::lock_guard lock(mutex_);
   if (stopping_) return fail(Code::kUnavailable, "the coordinator is stopping");
   if (const Entry* const known = find_request(request_id)) {
@@ -104,7 +109,7 @@ Result<JobStatus> Scheduler::create(const std::string& request_id, const JobSpec
     return fail(Code::kResourceExhausted, std::to_string(unfinished) + " jobs are unfinished; try again later");
   }
   const std::string id = random_token().substr(0, 12);
-  jobs_.push_back(std::make_unique<Entry>(Job(id, spec, unix_seconds(), options_.leases), request_id));
+  jobs_.push_back(std::make_unique<Entry>(Job(id, spec, unix_seconds(), options_.leases, target_of(request)), request_id));
   forget_old();
   spdlog::info("job {} '{}' created", id, spec.display_name);
   executor_.post([this, id] { run_preparation(id); });
@@ -138,6 +143,23 @@ Result<JobStatus> Scheduler::cancel(const std::string& id) {
   RADFARM_TRY(Entry* const entry, find(id));
   RADFARM_TRY_STATUS(entry->job.cancel());
   entry->stop.request_stop();
+  changed(*entry);
+  return status_of(*entry);
+}
+
+Result<JobStatus> Scheduler::extend(const std::string& id, double error) {
+  const std::lock_guard lock(mutex_);
+  if (stopping_) return fail(Code::kUnavailable, "the coordinator is stopping");
+  RADFARM_TRY(Entry* const entry, find(id));
+  RADFARM_TRY(RenderRequest request, request_of(entry->job.spec()));
+  request.error = error;
+  request.time.reset();
+  request.audit = true;
+  RADFARM_TRY_STATUS(validate(request));
+  RADFARM_TRY(const bool is_extended, entry->job.extend(target_of(request)));
+  if (!is_extended) return status_of(*entry);
+  spdlog::info("job {} extended to a relative error of {}", id, error);
+  executor_.post([this, id] { run_assembly(id); });
   changed(*entry);
   return status_of(*entry);
 }
@@ -203,19 +225,30 @@ void Scheduler::settle(const std::string& id, const Step& step) {
   changed(entry);
 }
 
-void Scheduler::run_preparation(const std::string& id) {
-  JobSpec spec;
-  std::stop_token stop;
-  {
-    const std::lock_guard lock(mutex_);
-    const Result<Entry*> entry = find(id);
-    if (stopping_ || !entry || (*entry)->job.state() != JobState::kQueued) return;
-    (*entry)->job.start_preparing();
+std::optional<ToPrepare> Scheduler::start_preparation(const std::string& id, std::stop_token& stop) {
+  const std::lock_guard lock(mutex_);
+  const Result<Entry*> entry = find(id);
+  if (stopping_ || !entry) return std::nullopt;
+  Job& job = (*entry)->job;
+  const bool is_anew = job.state() == JobState::kPreparing;
+  if (!is_anew && job.state() != JobState::kQueued) return std::nullopt;
+  if (!is_anew) {
+    (*entry)->preparing_since = now();
+    job.start_preparing();
     changed(**entry);
-    spec = (*entry)->job.spec();
-    stop = (*entry)->stop.get_token();
   }
-  auto prepared = prepare_job(spec, blobs_, options_.prepare, stop, [&](const JobPhase& phase) {
+  stop = (*entry)->stop.get_token();
+  ToPrepare preparation{job.spec(), job.target(), job.effort(), {}};
+  preparation.effort.threads = std::max(workers_.threads(), options_.expected_threads);
+  if (is_anew) preparation.round = job.round();
+  return preparation;
+}
+
+void Scheduler::run_preparation(const std::string& id) {
+  std::stop_token stop;
+  const std::optional<ToPrepare> job = start_preparation(id, stop);
+  if (!job) return;
+  auto prepared = prepare_job(*job, blobs_, options_.prepare, stop, [&](const JobPhase& phase) {
     const std::lock_guard lock(mutex_);
     const Result<Entry*> entry = find(id);
     if (entry && (*entry)->job.prepare_progress(phase)) changed(**entry);
@@ -225,7 +258,7 @@ void Scheduler::run_preparation(const std::string& id) {
       spdlog::warn("job {}: {}: {}", id, to_string(prepared.error().reason), prepared.error().error.message);
       return entry.job.fail(std::move(prepared.error()));
     }
-    entry.job.start_rendering(std::move(prepared->inputs), std::move(prepared->tasks));
+    entry.job.start_rendering(std::move(*prepared));
     entry.rendering_since = now();
     serve_waiters(now());
     assemble_if_done(entry);
@@ -235,6 +268,8 @@ void Scheduler::run_preparation(const std::string& id) {
 void Scheduler::assemble_if_done(Entry& entry) {
   if (entry.job.state() != JobState::kRendering || !entry.job.all_committed()) return;
   entry.job.start_assembling();
+  entry.round_seconds = std::chrono::duration<double>(now() - entry.rendering_since).count();
+  entry.rendered_seconds += entry.round_seconds;
   executor_.post([this, id = entry.job.id()] { run_assembly(id); });
 }
 
@@ -245,24 +280,57 @@ void Scheduler::fail_if_broken(Entry& entry) {
   entry.job.fail(*verdict);
 }
 
-void Scheduler::run_assembly(const std::string& id) {
-  TaskInputs inputs;
-  std::vector<std::vector<std::byte>> results;
-  FarmFacts facts;
-  {
-    const std::lock_guard lock(mutex_);
-    const Result<Entry*> entry = find(id);
-    if (stopping_ || !entry || (*entry)->job.state() != JobState::kAssembling) return;
-    inputs = (*entry)->job.inputs();
-    results = (*entry)->job.take_results();
-    facts.workers = (*entry)->job.worker_facts();
-    facts.tasks_wall_seconds = std::chrono::duration<double>(now() - (*entry)->rendering_since).count();
+std::optional<ToAssemble> Scheduler::start_assembly(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const Result<Entry*> entry = find(id);
+  if (stopping_ || !entry || (*entry)->job.state() != JobState::kAssembling) return std::nullopt;
+  const Job& job = (*entry)->job;
+  ToAssemble assembly;
+  assembly.spec = job.spec();
+  assembly.inputs = job.inputs();
+  assembly.round = job.round();
+  assembly.kind = job.round_kind();
+  assembly.results = job.results();
+  assembly.rounds = job.rounds();
+  // One that is extended is assembled again.
+  if (!assembly.rounds.empty() && assembly.rounds.back().round.number == job.round().number) assembly.rounds.pop_back();
+  assembly.target = job.target();
+  assembly.rounds_left = job.rounds_left();
+  assembly.light_cpu_seconds = job.light_cpu_seconds();
+  assembly.audit_cpu_seconds = job.audit_cpu_seconds();
+  assembly.wall_seconds = (*entry)->round_seconds;
+  assembly.elapsed_seconds = std::chrono::duration<double>(now() - (*entry)->preparing_since).count();
+  assembly.farm.workers = job.worker_facts();
+  assembly.farm.tasks_wall_seconds = (*entry)->rendered_seconds;
+  return assembly;
+}
+
+void Scheduler::go_on(Entry& entry, AssembledJob assembled) {
+  const NextRound& next = assembled.next;
+  entry.job.record(std::move(assembled.figures));
+  if (next.step == NextRound::Step::kStop) {
+    return entry.job.succeed(std::move(assembled.artifacts), next.target_met.has_value() && !*next.target_met);
   }
-  auto artifacts = assemble_job(inputs, blobs_, results, facts);
+  spdlog::info("job {}: round {}, {}", entry.job.id(), next.round.number + 1,
+               next.step == NextRound::Step::kNewLight ? "new light" : "more samples");
+  if (next.step == NextRound::Step::kNewLight) {
+    entry.job.prepare_anew(next.round, next.effort);
+    return executor_.post([this, id = entry.job.id()] { run_preparation(id); });
+  }
+  entry.job.go_on(next.round, std::move(assembled.tasks));
+  entry.rendering_since = now();
+  serve_waiters(now());
+  assemble_if_done(entry);
+}
+
+void Scheduler::run_assembly(const std::string& id) {
+  const std::optional<ToAssemble> job = start_assembly(id);
+  if (!job) return;
+  auto assembled = assemble_job(*job, blobs_);
   settle(id, [&](Entry& entry) {
-    if (artifacts) return entry.job.succeed(std::move(*artifacts));
-    spdlog::warn("job {}: {}", id, artifacts.error().error.message);
-    entry.job.fail(std::move(artifacts.error()));
+    if (assembled) return go_on(entry, std::move(*assembled));
+    spdlog::warn("job {}: {}", id, assembled.error().error.message);
+    entry.job.fail(std::move(assembled.error()));
   });
 }
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -26,6 +28,7 @@ struct SchedulerOptions {
   int stage_threads = 2;               // jobs prepared or assembled at once
   std::size_t unfinished_jobs = 1000;  // more are refused
   std::size_t finished_jobs = 10000;   // older ones are forgotten
+  int expected_threads = 1;            // of all workers together, where fewer have registered yet
 };
 
 /// All jobs and workers of a coordinator under one mutex. It decides nothing itself: Job, Leases and Workers do; it
@@ -52,6 +55,8 @@ class Scheduler {
   };
   Result<Page> list(std::uint32_t page_size, const std::string& page_token);
   Result<JobStatus> cancel(const std::string& id);
+  /// A finished job goes on, for a relative error.
+  Result<JobStatus> extend(const std::string& id, double error);
   using WatchCallback = std::function<void(const Result<JobStatus>&)>;
   using WatchId = std::uint64_t;
   /// Calls back now and after each change; after an error never again.
@@ -70,7 +75,7 @@ class Scheduler {
   };
   void lease(LeaseWait wait);
   Result<std::vector<std::string>> renew(const std::string& worker_id, const std::vector<std::string>& tokens);
-  Result<CommitOutcome> commit(const CommitHeader& header, std::vector<std::byte> bytes);
+  Result<CommitOutcome> commit(const CommitHeader& header, std::span<const std::byte> bytes);
   Status fail_task(const TaskFailure& failure);
   Status unregister_worker(const std::string& worker_id);
 
@@ -83,7 +88,10 @@ class Scheduler {
     Job job;
     std::string request_id;
     std::stop_source stop;
+    Time preparing_since{};         // for the first time
     Time rendering_since{};
+    double round_seconds = 0;       // of the round that was rendered last
+    double rendered_seconds = 0;    // of all rounds
     std::map<WatchId, WatchCallback> watchers;
   };
   struct Waiter {
@@ -99,6 +107,9 @@ class Scheduler {
   void forget_old();
   void run_preparation(const std::string& id);
   void run_assembly(const std::string& id);
+  std::optional<ToPrepare> start_preparation(const std::string& id, std::stop_token& stop);
+  std::optional<ToAssemble> start_assembly(const std::string& id);
+  void go_on(Entry& entry, AssembledJob assembled);
   void assemble_if_done(Entry& entry);
   void fail_if_broken(Entry& entry);
   template <typename Step>

@@ -103,14 +103,21 @@ Result<std::vector<std::string>> Scheduler::renew(const std::string& worker_id,
   return lost;
 }
 
-Result<CommitOutcome> Scheduler::commit(const CommitHeader& header, std::vector<std::byte> bytes) {
+Result<CommitOutcome> Scheduler::commit(const CommitHeader& header, std::span<const std::byte> bytes) {
+  {
+    const std::lock_guard lock(mutex_);
+    RADFARM_TRY([[maybe_unused]] const Workers::Worker* const known, workers_.touch(header.worker_id, now()));
+    if (!find(header.job_id)) return CommitOutcome::kSuperseded;
+  }
+  // Results are kept as blobs, not in memory: rounds and extensions go on from them. The disk is not waited for under the mutex.
+  RADFARM_TRY([[maybe_unused]] const BlobRef stored, blobs_.put(bytes));
   const std::lock_guard lock(mutex_);
   RADFARM_TRY(const Workers::Worker* const worker, workers_.touch(header.worker_id, now()));
   const Result<Entry*> entry = find(header.job_id);
   if (!entry) return CommitOutcome::kSuperseded;
   Job& job = (*entry)->job;
   const std::uint32_t diverged = job.status().progress.results_diverged;
-  const CommitOutcome outcome = job.commit(header, worker->hello.name, std::move(bytes));
+  const CommitOutcome outcome = job.commit(header, worker->hello.name);
   if (job.status().progress.results_diverged != diverged) {
     spdlog::error("job {} task {}: worker '{}' computed other bits than the committed result", header.job_id,
                   header.slot, worker->hello.name);

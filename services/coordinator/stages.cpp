@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <array>
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <optional>
@@ -13,7 +15,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/stopwatch.h"
 #include "coordinator/prepare_child.h"
+#include "frame/request.h"
 #include "image/exr.h"
 #include "process/child_process.h"
 #include "rpc/limits.h"
@@ -23,6 +27,15 @@ namespace {
 
 namespace fs = std::filesystem;
 using Reason = JobFailure::Reason;
+
+// The end of a round, an image written included, in times of what its assembly took so far.
+constexpr double kAssemblies = 2;
+
+/// As many digits as bring the same number back.
+std::string exact(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
 
 /// A folder that goes away with all it holds.
 class ScratchFolder {
@@ -83,7 +96,22 @@ tl::unexpected<JobFailure> failure_of(const std::optional<Error>& said, const Ch
   return broken(Reason::kPrepareDied, {Code::kInternal, "preparing the scene " + to_string(exit)});
 }
 
-Result<PreparedJob> collect(const fs::path& folder, const BlobStore& blobs) {
+/// What may be asked of a view and what it is expected to cost, as the preparation found; nothing where that cannot be read.
+std::vector<CostEstimate> estimates_of(std::span<const std::byte> view) {
+  std::vector<CostEstimate> estimates;
+  const Result<nlohmann::json> expected = expected_cost_of(view);
+  if (!expected) return estimates;
+  const auto add = [&](const std::string& ask, const nlohmann::json& row) {
+    const nlohmann::json range = row.value("cpu_s", nlohmann::json());
+    if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number()) return;
+    estimates.push_back({ask, range[0].get<double>(), range[1].get<double>()});
+  };
+  add("this job", *expected);
+  for (const nlohmann::json& row : expected->value("others", nlohmann::json::array())) add(row.value("ask", "?"), row);
+  return estimates;
+}
+
+Result<PreparedJob> collect(const fs::path& folder, const std::optional<Round>& round, const BlobStore& blobs) {
   PreparedJob job;
   const auto store = [&](const char* name) -> Result<BlobRef> {
     RADFARM_TRY(const MappedFile file, MappedFile::open(folder / name));
@@ -94,23 +122,35 @@ Result<PreparedJob> collect(const fs::path& folder, const BlobStore& blobs) {
   RADFARM_TRY(const BlobRef view, store(kViewFile));
   job.inputs = {scene.digest, solution.size > 0 ? solution.digest : "", view.digest};
   RADFARM_TRY(const MappedFile file, blobs.read(view.digest));
-  RADFARM_TRY(job.tasks, cut_tasks(file.bytes()));
+  RADFARM_TRY(job.round, first_round(file.bytes()));
+  if (round) job.round = *round;
+  RADFARM_TRY(job.tasks, cut_tasks(file.bytes(), job.round));
+  job.estimates = estimates_of(file.bytes());
   return job;
+}
+
+/// What the child is told besides the scene and the request.
+void add_effort(const ToPrepare& job, std::vector<std::string>& arguments) {
+  const auto add = [&](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  if (job.target.error > 0) add("--error", exact(job.target.error));
+  if (job.effort.level) add("--level", exact(static_cast<double>(*job.effort.level)));
+  if (job.effort.by_paths) arguments.emplace_back("--by-paths");
+  add("--threads", std::to_string(job.effort.threads));
 }
 
 }  // namespace
 
-tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const BlobStore& blobs,
+tl::expected<PreparedJob, JobFailure> prepare_job(const ToPrepare& job, const BlobStore& blobs,
                                                   const PrepareOptions& options, const std::stop_token& stop,
                                                   const std::function<void(const JobPhase&)>& on_phase) {
   const Result<ScratchFolder> scratch = make_scratch(options.scratch);
   if (!scratch) return broken(Reason::kInternal, scratch.error());
   const fs::path& folder = scratch->path();
   const fs::path scene = folder / "scene";
-  if (const Status laid = lay_out(spec, blobs, scene); !laid) return broken(Reason::kSceneInvalid, laid.error());
-  const std::vector<std::string> arguments = {"prepare-child",
+  if (const Status laid = lay_out(job.spec, blobs, scene); !laid) return broken(Reason::kSceneInvalid, laid.error());
+  std::vector<std::string> arguments = {"prepare-child",
                                               "--scene",
-                                              (scene / spec.entry_path).string(),
+                                              (scene / job.spec.entry_path).string(),
                                               "--request",
                                               (folder / "request.json").string(),
                                               "--out",
@@ -123,6 +163,7 @@ tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const Blo
                                               std::to_string(options.memory_bytes),
                                               "--parent-pid",
                                               std::to_string(::getpid())};
+  add_effort(job, arguments);
   Result<ChildProcess> child = ChildProcess::start(options.program, arguments, ChildProcess::Stdout::kCapture);
   if (!child) return broken(Reason::kInternal, child.error());
 
@@ -137,26 +178,77 @@ tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const Blo
                                                 std::to_string(options.time_limit.count()) + " s (--prepare-seconds)"});
   }
   if (*exit != ChildProcess::Exit{false, 0}) return failure_of(said, *exit);
-  Result<PreparedJob> job = collect(folder, blobs);
-  if (!job) return broken(Reason::kInternal, job.error());
-  return std::move(*job);
+  Result<PreparedJob> prepared = collect(folder, job.round, blobs);
+  if (!prepared) return broken(Reason::kInternal, prepared.error());
+  return std::move(*prepared);
 }
 
-tl::expected<std::vector<Artifact>, JobFailure> assemble_job(const TaskInputs& inputs, const BlobStore& blobs,
-                                                             const std::vector<std::vector<std::byte>>& results,
-                                                             const FarmFacts& facts) {
-  const auto assemble = [&]() -> Result<std::vector<Artifact>> {
-    RADFARM_TRY(const MappedFile view, blobs.read(inputs.view));
-    RADFARM_TRY(const Finished finished, finish(view.bytes(), results, facts));
-    RADFARM_TRY(const std::vector<std::byte> exr, encode_exr(finished.image));
-    RADFARM_TRY(const BlobRef image, blobs.put(exr));
-    const std::string text = finished.report->dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    RADFARM_TRY(const BlobRef report, blobs.put(std::as_bytes(std::span(text))));
-    return std::vector<Artifact>{{"image.exr", image}, {"report.json", report}};
-  };
-  Result<std::vector<Artifact>> artifacts = assemble();
-  if (!artifacts) return broken(Reason::kResultInvalid, artifacts.error());
-  return std::move(*artifacts);
+namespace {
+
+Result<std::vector<std::vector<std::byte>>> read_results(const std::vector<BlobRef>& blob_refs, const BlobStore& blobs) {
+  std::vector<std::vector<std::byte>> results;
+  for (const BlobRef& blob : blob_refs) {
+    RADFARM_TRY(const MappedFile file, blobs.read(blob.digest));
+    results.emplace_back(file.bytes().begin(), file.bytes().end());
+  }
+  return results;
+}
+
+/// Where the integrator, and all that depends on it, is ours to choose.
+bool may_trace_paths(const JobSpec& spec) {
+  const nlohmann::json json = nlohmann::json::parse(spec.render_request_json, nullptr, /*allow_exceptions=*/false);
+  const Result<RenderRequest> request = render_request_from_json(json);
+  return request && request->integrator == RenderRequest::Integrator::kAuto && request->gather == Gather::kDefault &&
+         request->aov.empty();
+}
+
+/// With what the farm measured.
+RoundFigures figures_of(const ToAssemble& job, const AssembledRound& round) {
+  RoundFigures figures = round.figures();
+  figures.kind = job.kind;
+  figures.light_cpu_seconds = job.light_cpu_seconds;
+  figures.audit_cpu_seconds = job.audit_cpu_seconds;
+  figures.wall_seconds = job.wall_seconds;
+  if (job.kind == RoundFigures::Kind::kMoreSamples) figures.prepare_cpu_seconds = figures.prepare_wall_seconds = 0;
+  return figures;
+}
+
+Result<std::vector<Artifact>> store_artifacts(const Finished& finished, const BlobStore& blobs) {
+  RADFARM_TRY(const std::vector<std::byte> exr, encode_exr(finished.image));
+  RADFARM_TRY(const BlobRef image, blobs.put(exr));
+  const std::string text = finished.report->dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  RADFARM_TRY(const BlobRef report, blobs.put(std::as_bytes(std::span(text))));
+  return std::vector<Artifact>{{"image.exr", image}, {"report.json", report}};
+}
+
+Result<AssembledJob> assemble(const ToAssemble& job, const BlobStore& blobs) {
+  const Stopwatch watch;
+  RADFARM_TRY(const MappedFile view, blobs.read(job.inputs.view));
+  RADFARM_TRY(const std::vector<std::vector<std::byte>> results, read_results(job.results, blobs));
+  RADFARM_TRY(AssembledRound round, assemble_round(view.bytes(), job.round, results));
+  AssembledJob assembled;
+  assembled.figures = figures_of(job, round);
+  JobFacts facts{job.farm, job.target, {}, job.rounds, 0};
+  facts.rounds.push_back(assembled.figures);
+  RoundsAsked asked{job.target, may_trace_paths(job.spec), job.rounds_left, 0, kAssemblies * watch.wall_seconds()};
+  asked.seconds_left = job.target.seconds - job.elapsed_seconds - watch.wall_seconds();
+  assembled.next = next_round(asked, facts.rounds);
+  if (assembled.next.step == NextRound::Step::kMoreSamples) {
+    RADFARM_TRY(assembled.tasks, cut_tasks(view.bytes(), assembled.next.round));
+  }
+  if (assembled.next.step != NextRound::Step::kStop) return assembled;
+  facts.target_met = assembled.next.target_met;
+  facts.elapsed_seconds = job.elapsed_seconds + watch.wall_seconds();
+  RADFARM_TRY(assembled.artifacts, store_artifacts(finish(std::move(round), std::move(facts)), blobs));
+  return assembled;
+}
+
+}  // namespace
+
+tl::expected<AssembledJob, JobFailure> assemble_job(const ToAssemble& job, const BlobStore& blobs) {
+  Result<AssembledJob> assembled = assemble(job, blobs);
+  if (!assembled) return broken(Reason::kResultInvalid, assembled.error());
+  return std::move(*assembled);
 }
 
 }  // namespace radfarm

@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "coordinator/blob_store.h"
+#include "coordinator/prepared_job.h"
 #include "frame/task.h"
+#include "pipeline/next_round.h"
 #include "pipeline/pipeline.h"
 #include "rpc/messages.h"
 
@@ -25,20 +28,43 @@ struct PrepareOptions {
   std::uint64_t memory_bytes = 0;  // address space of the child; 0: no limit
 };
 
-struct PreparedJob {
-  TaskInputs inputs;
-  std::vector<Task> tasks;
+/// What is prepared: a job's view as its specification has it, or anew for a target.
+struct ToPrepare {
+  JobSpec spec;
+  Target target;
+  Effort effort;
+  std::optional<Round> round;  // the first one of this view; nothing: as prepared
 };
 
 /// Lays the scene out in a folder of its own and prepares it in a child process, so that a hostile or enormous scene
 /// fails its own job and nothing else. `stop` kills the child. `on_phase` hears how far it is, on the caller's thread.
-tl::expected<PreparedJob, JobFailure> prepare_job(const JobSpec& spec, const BlobStore& blobs,
+tl::expected<PreparedJob, JobFailure> prepare_job(const ToPrepare& job, const BlobStore& blobs,
                                                   const PrepareOptions& options, const std::stop_token& stop,
                                                   const std::function<void(const JobPhase&)>& on_phase);
 
-/// Results (in cut_tasks order) to "image.exr" and "report.json", stored as blobs.
-tl::expected<std::vector<Artifact>, JobFailure> assemble_job(const TaskInputs& inputs, const BlobStore& blobs,
-                                                             const std::vector<std::vector<std::byte>>& results,
-                                                             const FarmFacts& facts);
+/// A round whose tasks are all committed.
+struct ToAssemble {
+  JobSpec spec;
+  TaskInputs inputs;
+  Round round;
+  RoundFigures::Kind kind = RoundFigures::Kind::kFirst;
+  std::vector<BlobRef> results;      // in cut_tasks order
+  std::vector<RoundFigures> rounds;  // before this one
+  Target target;
+  std::uint32_t rounds_left = 0;
+  double light_cpu_seconds = 0, audit_cpu_seconds = 0, wall_seconds = 0;  // of this round
+  double elapsed_seconds = 0;        // since the job was first prepared
+  FarmFacts farm;                    // of all rounds
+};
+
+/// What a round came to: what comes next, with its tasks where samples go on; or "image.exr" and "report.json", stored as blobs.
+struct AssembledJob {
+  RoundFigures figures;
+  NextRound next;
+  std::vector<Task> tasks;
+  std::vector<Artifact> artifacts;
+};
+
+tl::expected<AssembledJob, JobFailure> assemble_job(const ToAssemble& job, const BlobStore& blobs);
 
 }  // namespace radfarm

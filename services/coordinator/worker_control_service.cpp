@@ -37,7 +37,7 @@ class CommitSink {
     if (bytes_.size() != header_->result.size || sha256_hex(bytes_) != header_->result.digest) {
       return fail(Code::kDataLoss, "the result has another digest or size than its header says");
     }
-    RADFARM_TRY(const CommitOutcome outcome, scheduler_.commit(*header_, std::move(bytes_)));
+    RADFARM_TRY(const CommitOutcome outcome, scheduler_.commit(*header_, bytes_));
     response_.set_outcome(static_cast<v1::CommitTaskResponse::Outcome>(outcome));
     return {};
   }

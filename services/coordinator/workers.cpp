@@ -51,4 +51,10 @@ std::optional<Time> Workers::next_silence() const {
   return next;
 }
 
+int Workers::threads() const {
+  int threads = 0;
+  for (const auto& [id, worker] : workers_) threads += static_cast<int>(worker.hello.threads);
+  return threads;
+}
+
 }  // namespace radfarm

@@ -40,6 +40,7 @@ class Workers {
   /// Workers of one class that may take work.
   std::set<std::string> live(const std::string& worker_class) const;
   std::size_t count() const { return workers_.size(); }
+  int threads() const;  // of all
   std::optional<Time> next_silence() const;
 
  private:

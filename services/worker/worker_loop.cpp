@@ -9,6 +9,7 @@
 #include "base/stopwatch.h"
 #include "pipeline/fingerprint.h"
 #include "rpc/channel.h"
+#include "rpc/limits.h"
 #include "rpc/retry.h"
 
 namespace radfarm {
@@ -174,15 +175,21 @@ void WorkerLoop::run_tasks() {
 void WorkerLoop::run_one(const Lease& lease) {
   const Result<std::shared_ptr<const Prepared>> prepared = prepared_.get(lease.inputs);
   if (!prepared) return report_failure(lease, opening_failure(prepared.error()), prepared.error());
+  std::vector<std::byte> before;
+  if (!lease.before.empty()) {
+    Result<std::vector<std::byte>> fetched = blobs_.download(lease.before, limits::kResultBytes);
+    if (!fetched) return report_failure(lease, opening_failure(fetched.error()), fetched.error());
+    before = std::move(*fetched);
+  }
   const double start = thread_cpu_seconds();
-  const Result<std::vector<std::byte>> result = run_task(**prepared, lease.task);
+  const Result<std::vector<std::byte>> result = run_task(**prepared, lease.task, {lease.round, before});
   if (!result) return report_failure(lease, FailureClass::kTask, result.error());
   hand_in(lease, *result, thread_cpu_seconds() - start);
 }
 
 void WorkerLoop::hand_in(const Lease& lease, std::span<const std::byte> result, double cpu_seconds) {
   const CommitHeader header{worker_id(),           lease.job_id, lease.slot,         lease.token,
-                            rpc::blob_ref(result), cpu_seconds,  peak_memory_bytes()};
+                            rpc::blob_ref(result), cpu_seconds,  peak_memory_bytes(), lease.round.number};
   CommitOutcome outcome = CommitOutcome::kSuperseded;
   const Status handed = rpc::with_retries(
       commit_policy(options_.patience), [this](auto wait) { return pause(wait); },

@@ -166,7 +166,8 @@ TEST_F(RenderTest, ABadSceneIsExitCode3AndLeavesNothing) {
 
 TEST_F(RenderTest, WrongFlagsAreExitCode2) {
   EXPECT_EQ(run({scene("cornell.gltf")}), (Exit{false, 2}));
-  EXPECT_EQ(run({scene("cornell.gltf"), "-o", output("a.exr"), "--error", "2%"}), (Exit{false, 2}));
+  EXPECT_EQ(run({scene("cornell.gltf"), "-o", output("a.exr"), "--error", "0"}), (Exit{false, 2}));
+  EXPECT_EQ(run({scene("cornell.gltf"), "-o", output("a.exr"), "--error", "2%", "--no-audit"}), (Exit{false, 2}));
   EXPECT_EQ(run({scene("cornell.gltf"), "-o", output("a.exr"), "--tile", "0"}), (Exit{false, 2}));
 }
 

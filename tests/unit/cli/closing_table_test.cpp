@@ -46,5 +46,23 @@ TEST(ClosingTable, SurvivesAReportOfAnotherShape) {
   EXPECT_NO_THROW(closing_table(json{{"stages", {1, "x"}}, {"effects", {nullptr}}, {"counts", {{"a", "b"}}}}));
 }
 
+TEST(RoundsTable, ShowsEachRoundTheTargetAndTheNextHalving) {
+  const json report = {{"accuracy", {{"target", 0.02}, {"target_met", false}}},
+                       {"rounds",
+                        {{{"kind", "first"}, {"samples", 16.0}, {"cpu_s", 4.0}, {"wall_s", 2.0},
+                          {"relative_rmse", 0.04}, {"ci95", {0.03, 0.05}}},
+                         {{"kind", "more samples"}, {"samples", 64.0}, {"cpu_s", 9.0}, {"wall_s", 5.0},
+                          {"relative_rmse", nullptr}, {"ci95", {0.0, 0.021}}}}},
+                       {"next_halving", {{"cpu_s", 40.0}, {"wall_s", 20.0}, {"from", "the noise of the samples"}}}};
+  const std::string table = rounds_table(report);
+  EXPECT_THAT(table, HasSubstr("4 % (95 %: 3 % to 5 %)"));
+  EXPECT_THAT(table, HasSubstr("2     more samples       64.0       9.00       5.00   < 2.1 %"));
+  EXPECT_THAT(table, HasSubstr("relative error below 2 %: NOT met"));
+  EXPECT_THAT(table, HasSubstr("half the error would cost about 40 CPU s more, 20 s of wall time (by the noise of the samples)"));
+  EXPECT_EQ(rounds_table(json::object()), "");
+  EXPECT_THAT(rounds_table({{"time", {{"target_s", 60.0}, {"elapsed_s", 51.3}}}}), HasSubstr("target: 60 s; it took 51.3 s"));
+  EXPECT_NO_THROW(rounds_table({{"accuracy", {{"target", 0.1}}}, {"rounds", {1, nullptr}}, {"time", 7}}));
+}
+
 }  // namespace
 }  // namespace radfarm::cli

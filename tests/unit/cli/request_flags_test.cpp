@@ -135,9 +135,32 @@ TEST(RequestFlags, PhotonsAndRadiusAreOfPathsAndGathers) {
   EXPECT_THAT(error_of("--integrator paths --radius 0"), HasSubstr("--radius"));
 }
 
+TEST(RequestFlags, ATargetStandsInsteadOfAQuality) {
+  EXPECT_DOUBLE_EQ(*parse("--error 2%")->error, 0.02);
+  EXPECT_DOUBLE_EQ(*parse("--error .02")->error, 0.02);
+  EXPECT_DOUBLE_EQ(*parse("--error 100%")->error, 1);
+  EXPECT_DOUBLE_EQ(*parse("--time 90")->time, 90);
+  EXPECT_DOUBLE_EQ(*parse("--time 60s")->time, 60);
+  EXPECT_DOUBLE_EQ(*parse("--time 2m")->time, 120);
+  EXPECT_DOUBLE_EQ(*parse("--time 1.5h")->time, 5400);
+  for (const char* line : {"--error 2% --quality high", "--time 60 --quality standard", "--error 2% --time 60"}) {
+    EXPECT_THAT(error_of(line), HasSubstr("exclude each other")) << line;
+  }
+  for (const char* line : {"--error 0", "--error=-2%", "--error 101%", "--error 2", "--error x", "--error nan",
+                           "--error 1e-9", "--error %"}) {
+    EXPECT_THAT(error_of(line), HasSubstr("--error: '")) << line;
+  }
+  for (const char* line : {"--time 0", "--time=-5", "--time x", "--time inf", "--time s", "--time 5d"}) {
+    EXPECT_THAT(error_of(line), HasSubstr("--time: '")) << line;
+  }
+  EXPECT_THAT(error_of("--time .5"), HasSubstr("from 1 s"));
+  EXPECT_THAT(error_of("--error 2% --no-audit"), HasSubstr("--no-audit"));
+  EXPECT_THAT(error_of("--time 9 --no-audit"), HasSubstr("--no-audit"));
+  EXPECT_THAT(error_of("--error 2% --mesh --integrator radiosity"), HasSubstr("--mesh"));
+}
+
 TEST(RequestFlags, WhatIsNotBuiltIsRefusedAndNotIgnored) {
-  for (const char* line : {"--error 2%", "--time 60s",
-                           "--aov density", "--criterion KL"}) {
+  for (const char* line : {"--aov density", "--criterion KL"}) {
     const Result<RenderRequest> request = parse(line);
     ASSERT_FALSE(request) << line;
     EXPECT_EQ(request.error().code, Code::kUnimplemented) << line;

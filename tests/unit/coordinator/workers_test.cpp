@@ -17,6 +17,7 @@ TEST(Workers, AreForgottenWhenSilent) {
   workers.add("b", hello("f"), kStart);
   EXPECT_TRUE(workers.touch("a", kStart + 30s));
   EXPECT_EQ(workers.next_silence(), kStart + 60s);
+  EXPECT_EQ(workers.threads(), 2);
   EXPECT_EQ(workers.forget_silent(kStart + 60s), std::set<std::string>{"b"});
   EXPECT_EQ(workers.touch("b", kStart + 60s).error().code, Code::kNotFound);
   EXPECT_EQ(workers.count(), 1U);

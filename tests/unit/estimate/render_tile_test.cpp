@@ -156,13 +156,48 @@ TEST(RenderTile, EdgesOfEmissionAreSampledFurther) {
   const double step = 2 * std::tan(0.5) / kHeight;  // of the film's plane, a pixel
   const double edge = 0.01 / step + kWidth / 2.0;
   for (int x = 0; x < kWidth; ++x) {
-    const PixelSums& pixel = tile.light[static_cast<std::size_t>(5 * kWidth + x)];
+    PixelSums pixel = tile.light[static_cast<std::size_t>(5 * kWidth + x)];
+    complete_emission(tile.needs[static_cast<std::size_t>(5 * kWidth + x)], pixel);
     const double share = std::clamp(x + 1 - edge, 0.0, 1.0);
     EXPECT_EQ(pixel.samples, 4U);
     // A stratified set of 1020 points cuts an interval to within one of them.
     EXPECT_NEAR(luminance(pixel.emission) / 4, 1000 * share, 2.0) << x;
   }
   EXPECT_LT(counters.camera_rays, static_cast<std::uint64_t>(kWidth * kHeight * 4 + 4 * kHeight * 1024)) << "only near the edge";
+}
+
+TEST(RenderTile, GoingOnGivesTheBitsOfAllAtOnce) {
+  const SampleEmission emission = [](const Ray& ray, const PixelSampler& sampler, Counters& c) {
+    return lamp_behind_an_edge(ray, sampler, c, nullptr).emission;
+  };
+  for (const float noise : {0.0F, 0.1F}) {
+    SampleBudget budget{7, 128, noise};
+    const Film film = small_film();
+    const Kept kept{true, true};
+    Counters gone_on, at_once;
+    TilePixels tile = render_tile(film, kWhole, budget, on_plane_and_grass, gone_on, kept, emission);
+    for (const double scale : {1.3, 2.0, 5.5}) {
+      budget.scale = scale;
+      tile = resume_tile(film, kWhole, budget, on_plane_and_grass, gone_on, kept, emission, tile);
+    }
+    const TilePixels once = render_tile(film, kWhole, budget, on_plane_and_grass, at_once, kept, emission);
+    EXPECT_EQ(tile.light, once.light);
+    EXPECT_EQ(tile.aovs, once.aovs);
+    EXPECT_EQ(tile.sharing, once.sharing);
+    EXPECT_EQ(tile.needs, once.needs);
+  }
+}
+
+TEST(SampleBudget, NeverFallsAsTheScaleGrows) {
+  const PixelNeeds needs{0.73, 1.91, {}, 0, 0};
+  std::uint32_t light = 0, emission = 0;
+  for (double scale = 1; scale < 40; scale *= 1.03) {
+    const SampleBudget budget{4, 64, 0.05F, scale};
+    EXPECT_GE(samples_of(budget, needs), light);
+    EXPECT_GE(emission_samples_of(budget, needs), emission);
+    light = samples_of(budget, needs), emission = emission_samples_of(budget, needs);
+  }
+  EXPECT_EQ(samples_of({4, 64, 0, 2.5}, needs), 10U) << "all alike";
 }
 
 }  // namespace

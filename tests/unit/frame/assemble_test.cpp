@@ -24,7 +24,7 @@ PixelSums sums_of(int x, int y) {
 
 std::vector<TileResult> all_tiles(const Settings& settings) {
   std::vector<TileResult> tiles;
-  for (const Task& task : cut_tasks(settings)) {
+  for (const Task& task : cut_tasks(settings, first_round(settings))) {
     TileResult tile;
     tile.rect = tile_rect(settings, task.index);
     tile.counters.camera_rays = 1;

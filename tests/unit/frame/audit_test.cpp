@@ -65,7 +65,7 @@ TEST(Audit, MeasuresTheMseWithoutBias) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Settings settings = audited(seed);
     const Synthetic s = make(settings);
-    const Accuracy accuracy = *audit(settings, s.raster, s.audits);
+    const Accuracy accuracy = *audit(settings, first_round(settings), s.raster, s.audits);
     difference.add(accuracy.direct_mse + accuracy.indirect_mse - s.mse);
     mean.add(accuracy.mean);
   }
@@ -80,7 +80,7 @@ TEST(Audit, ItsIntervalCoversTheTruthNineTimesInTen) {
   for (std::uint64_t seed = 1000; seed < 1200; ++seed) {
     const Settings settings = audited(seed);
     const Synthetic s = make(settings);
-    const Accuracy accuracy = *audit(settings, s.raster, s.audits);
+    const Accuracy accuracy = *audit(settings, first_round(settings), s.raster, s.audits);
     ASSERT_TRUE(accuracy.rmse.has_value());
     EXPECT_LE(accuracy.rmse->lower, accuracy.rmse->upper);
     const double truth = std::sqrt(s.mse);
@@ -89,10 +89,47 @@ TEST(Audit, ItsIntervalCoversTheTruthNineTimesInTen) {
   EXPECT_GE(covered, 180);
 }
 
+TEST(Audit, ItsStandardErrorIsWhatTheFigureScattersBy) {
+  RunningStatistics mse;
+  double stated = 0;
+  for (std::uint64_t seed = 2000; seed < 2300; ++seed) {
+    const Settings settings = audited(seed);
+    const Synthetic s = make(settings);
+    const Accuracy accuracy = *audit(settings, first_round(settings), s.raster, s.audits);
+    mse.add(accuracy.mse - s.mse);
+    stated += accuracy.mse_error / 300;
+    EXPECT_LE(accuracy.audit_noise, accuracy.mse_error);
+    EXPECT_GE(*accuracy.surely_below, accuracy.relative_rmse->upper);
+  }
+  // A standard deviation from 300 values is within 4 / sqrt(600) of itself but for one false alarm in 16000.
+  EXPECT_NEAR(stated / std::sqrt(mse.variance()), 1, 0.17);
+}
+
+TEST(Audit, SaysWhatASinglePathVaries) {
+  const Settings settings = audited(8);
+  Synthetic s = make(settings);
+  for (AuditResult::Pixel& pixel : s.audits[0].pixels) {
+    for (PixelSums* estimate : {&pixel.first, &pixel.second}) {
+      *estimate = {};
+      for (int i = 0; i < 4; ++i) estimate->add({{}, Spectrum(i % 2 == 0 ? 2.0F : 4.0F), {}, {}});
+    }
+  }
+  const Accuracy accuracy = *audit(settings, first_round(settings), s.raster, s.audits);
+  EXPECT_NEAR(accuracy.path_variance, 4.0 / 3, 1e-9) << "2, 4, 2, 4: a sample variance of 4/3";
+}
+
+TEST(Audit, OfAnotherRoundHasOtherPixels) {
+  const Settings settings = audited(9);
+  Round second = first_round(settings);
+  second.number = 1;
+  const Synthetic s = make(settings);
+  EXPECT_EQ(audit(settings, second, s.raster, s.audits).error().code, Code::kDataLoss);
+}
+
 TEST(Audit, PartsAndChannelsAddUpToTheMse) {
   const Settings settings = audited(5);
   const Synthetic s = make(settings);
-  const Accuracy accuracy = *audit(settings, s.raster, s.audits);
+  const Accuracy accuracy = *audit(settings, first_round(settings), s.raster, s.audits);
   ASSERT_TRUE(accuracy.rmse && accuracy.rmse->value);
   const double mse = *accuracy.rmse->value * *accuracy.rmse->value;
   EXPECT_NEAR(accuracy.direct_mse + accuracy.indirect_mse, mse, 1e-12);
@@ -104,7 +141,7 @@ TEST(Audit, APerfectImageMeasuresBelowWhatItCanResolve) {
   const Settings settings = audited(6);
   Synthetic s = make(settings);
   for (PixelSums& pixel : s.raster.pixels) pixel = grey(2, 1);
-  const Accuracy accuracy = *audit(settings, s.raster, s.audits);
+  const Accuracy accuracy = *audit(settings, first_round(settings), s.raster, s.audits);
   ASSERT_TRUE(accuracy.rmse);
   // Either nothing can be resolved, or the interval reaches 0.
   EXPECT_TRUE(!accuracy.rmse->value || accuracy.rmse->lower == 0);
@@ -116,7 +153,7 @@ TEST(Audit, ABlackImageHasNoError) {
   Synthetic s = make(settings);
   for (PixelSums& pixel : s.raster.pixels) pixel = grey(0, 0);
   for (AuditResult::Pixel& pixel : s.audits[0].pixels) pixel.first = pixel.second = grey(0, 0);
-  const Accuracy accuracy = *audit(settings, s.raster, s.audits);
+  const Accuracy accuracy = *audit(settings, first_round(settings), s.raster, s.audits);
   EXPECT_FALSE(accuracy.rmse);
   EXPECT_FALSE(accuracy.relative_rmse);
   EXPECT_EQ(accuracy.mean, 0);
@@ -133,9 +170,9 @@ TEST(Audit, RefusesPixelsThatTheSettingsDoNotChoose) {
     if (damage == 2) pixels[3] = pixels[4];
     if (damage == 3) pixels[5].x = -1;
     if (damage == 4) pixels[6].second.samples = 0;
-    EXPECT_EQ(audit(settings, s.raster, audits).error().code, Code::kDataLoss) << damage;
+    EXPECT_EQ(audit(settings, first_round(settings), s.raster, audits).error().code, Code::kDataLoss) << damage;
   }
-  EXPECT_EQ(audit(settings, s.raster, {}).error().code, Code::kDataLoss);
+  EXPECT_EQ(audit(settings, first_round(settings), s.raster, {}).error().code, Code::kDataLoss);
 }
 
 }  // namespace

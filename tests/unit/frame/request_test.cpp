@@ -170,5 +170,25 @@ TEST(RenderRequest, ValuesOutOfRangeNameTheirFlag) {
   }
 }
 
+TEST(RenderRequestTarget, StandsInsteadOfAQualityAndComesBack) {
+  RenderRequest error, time;
+  error.error = 0.02;
+  time.time = 90;
+  for (const RenderRequest& request : {error, time}) {
+    const nlohmann::json json = to_json(request);
+    EXPECT_FALSE(json.contains("quality"));
+    EXPECT_EQ(*render_request_from_json(json), request);
+    EXPECT_TRUE(validate(request));
+  }
+  for (const char* text : {R"({"error": 0.02, "time": 9})", R"({"error": 0.02, "quality": "high"})",
+                           R"({"time": 9, "quality": "standard"})"}) {
+    EXPECT_EQ(render_request_from_json(nlohmann::json::parse(text)).error().code, Code::kInvalidArgument) << text;
+  }
+  for (const char* text : {R"({"error": 0})", R"({"error": -1})", R"({"error": 1.5})", R"({"time": 0})", R"({"time": 1e30})",
+                           R"({"error": 0.02, "audit": false})", R"({"error": 0.02, "integrator": "radiosity", "mesh": true})"}) {
+    EXPECT_EQ(validate(*render_request_from_json(nlohmann::json::parse(text))).error().code, Code::kInvalidArgument) << text;
+  }
+}
+
 }  // namespace
 }  // namespace radfarm

@@ -16,7 +16,7 @@ Settings of_size(int width, int height, int tile, std::uint32_t audited = 0) {
 
 TEST(CutTasks, CutsEachImageIntoTheSameTilesAndAuditsOnce) {
   const Settings settings = of_size(100, 60, 16, 500);
-  const std::vector<Task> one = cut_tasks(settings), three = cut_tasks(settings, 3);
+  const std::vector<Task> one = cut_tasks(settings, first_round(settings)), three = cut_tasks(settings, first_round(settings), 3);
   const std::size_t tiles = tile_count(settings);
   EXPECT_EQ(three.size() - one.size(), 2 * tiles);
   EXPECT_EQ(three[2 * tiles], (Task{Task::Kind::kTile, static_cast<std::uint32_t>(2 * tiles)}));
@@ -27,7 +27,7 @@ TEST(Tasks, TilesCoverEveryPixelOnce) {
   for (const Settings& settings : {of_size(1, 1, 32), of_size(33, 17, 8), of_size(64, 64, 64), of_size(7, 101, 10),
                                    of_size(40, 3, 1), of_size(31, 31, 32), of_size(97, 89, 13)}) {
     std::vector<int> covered(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
-    for (const Task& task : cut_tasks(settings)) {
+    for (const Task& task : cut_tasks(settings, first_round(settings))) {
       ASSERT_EQ(task.kind, Task::Kind::kTile);
       const PixelRect rect = tile_rect(settings, task.index);
       EXPECT_TRUE(rect.x0 >= 0 && rect.x0 < rect.x1 && rect.x1 <= settings.width);
@@ -42,7 +42,8 @@ TEST(Tasks, TilesCoverEveryPixelOnce) {
 }
 
 TEST(Tasks, ComeTilesFirstEachOnce) {
-  const std::vector<Task> tasks = cut_tasks(of_size(100, 60, 16, 500));
+  const Settings settings = of_size(100, 60, 16, 500);
+  const std::vector<Task> tasks = cut_tasks(settings, first_round(settings));
   std::set<std::pair<int, std::uint32_t>> seen;
   bool is_audit = false;
   for (const Task& task : tasks) {
@@ -59,9 +60,9 @@ TEST(Tasks, AuditTasksHaveTheChosenPixelsInOrder) {
         choose_audit_pixels(settings.width, settings.height, settings.audit_pixels, settings.seed);
     std::size_t next = 0;
     double weight = 0;
-    for (const Task& task : cut_tasks(settings)) {
+    for (const Task& task : cut_tasks(settings, first_round(settings))) {
       if (task.kind != Task::Kind::kAudit) continue;
-      const std::vector<AuditPixel> pixels = audit_task_pixels(settings, task.index);
+      const std::vector<AuditPixel> pixels = audit_task_pixels(settings, first_round(settings), task.index);
       EXPECT_FALSE(pixels.empty());
       for (const AuditPixel& pixel : pixels) {
         ASSERT_LT(next, chosen.size());

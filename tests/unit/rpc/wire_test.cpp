@@ -88,8 +88,8 @@ TEST(Wire, WorkerNamesArePrintableUtf8) {
 }
 
 TEST(Wire, JobStatusComesBack) {
-  JobStatus status{"id1", "room", JobState::kFailed, 9, 1700000000, {10, 4, 2, 3, 1, 0, "no worker", {"radiosity: links", 7, 1ULL << 40U}},
-                   {}, {}};
+  JobStatus status{"id1", "room", JobState::kFailed, 9, 1700000000, {10, 4, 2, 3, 1, 0, "no worker", {"radiosity: links", 7, 1ULL << 40U}, 2},
+                   {}, {}, true, {{"1 %", 1.5, 20}}, 7.25};
   status.failure = {JobFailure::Reason::kTaskFailed, {Code::kDataLoss, "task 3: damaged"}};
   status.artifacts = {{"image.exr", {kDigest, 5}}};
   v1::RenderJob message;
@@ -99,6 +99,9 @@ TEST(Wire, JobStatusComesBack) {
   EXPECT_EQ(back->state, JobState::kFailed);
   EXPECT_EQ(back->progress, status.progress);
   EXPECT_EQ(back->failure, status.failure);
+  EXPECT_TRUE(back->target_missed);
+  EXPECT_EQ(back->estimates, status.estimates);
+  EXPECT_EQ(back->cpu_seconds, 7.25);
   EXPECT_EQ(back->artifacts, status.artifacts);
   EXPECT_EQ(back->created_unix_seconds, status.created_unix_seconds);
 }
@@ -112,7 +115,7 @@ TEST(Wire, StatesAndReasonsHaveTheProtocolsNames) {
 
 TEST(Wire, LeaseComesBackWithAndWithoutSolution) {
   for (const std::string& solution : {std::string(), kDigest}) {
-    const Lease lease{"job", 4, {Task::Kind::kAudit, 2}, {kDigest, solution, kDigest}, 3, "token"};
+    const Lease lease{"job", 4, {Task::Kind::kAudit, 2}, {kDigest, solution, kDigest}, 3, "token", {2, 1024, 64, 1.25}, solution};
     v1::Lease message;
     encode(lease, message);
     const Result<Lease> back = parse(message);
