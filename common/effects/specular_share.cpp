@@ -44,15 +44,16 @@ float diffuse_share(const Material& m) { return luminance(m.base_color) * (1 - m
 
 void follow(const World& world, const std::vector<bool>& sharp, std::uint64_t seed, std::uint32_t index, Brought& brought) {
   std::array<double, kSenders> path{};
-  std::uint32_t left = kNone;  // material that the segment left
+  std::uint32_t left = kNone, last = kNone;  // materials that the segment left, and that was met last
   const auto see = [&](const Segment& segment) {
+    if (segment.begin == 0) left = last;  // else it goes on through a pane
     if (segment.instance == kNone) return;
     const std::uint32_t met = world.scene.meshes[world.scene.instances[segment.instance].mesh].material;
     const std::size_t sender = !segment.leaves_specular ? kNotSpecular : (sharp[left] ? kSharp : kRough);
     const float reflected = luminance(segment.power) * diffuse_share(world.scene.materials[met]);
     path[sender] += static_cast<double>(reflected);
     if (reflected > 0) brought.arrivals += 1;
-    if (!world.surfaces.is_pane(world.scene.instances[segment.instance].mesh)) left = met;
+    last = met;
   };
   (void)follow_path(world, combine(seed, kShareKey), index, see);
   brought.add_path(path);

@@ -31,6 +31,12 @@ void Events::lose(const Error& error) {
   changed_.notify_all();
 }
 
+void Events::forget_job() {
+  const std::lock_guard lock(mutex_);
+  seen_.job.reset();
+  seen_.lost.reset();
+}
+
 Events::Seen Events::wait(std::optional<std::chrono::steady_clock::time_point> deadline) {
   std::unique_lock lock(mutex_);
   bool in_time = true;

@@ -26,6 +26,8 @@ class Events {
   void child_ended();
   void job(const JobStatus& status);
   void lose(const Error& error);
+  /// What was heard of a job is nothing to the next one.
+  void forget_job();
 
   /// What happened since the last look; waits for something to happen, until `deadline`.
   Seen wait(std::optional<std::chrono::steady_clock::time_point> deadline);

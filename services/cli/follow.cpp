@@ -11,19 +11,21 @@ constexpr std::chrono::milliseconds kTick{500};  // the time shown goes on while
 class Watch {
  public:
   Watch(FarmClient& client, const std::string& id, Events& events)
-      : client_(client), thread_([&client, id, &events] {
+      : client_(client), events_(events), thread_([&client, id, &events] {
           const Status ended = client.watch(id, [&](const JobStatus& status) { events.job(status); });
           if (!ended) events.lose(ended.error());
         }) {}
   ~Watch() {
     client_.stop_watching();
     thread_.join();
+    events_.forget_job();  // the end of the watch too
   }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
  private:
   FarmClient& client_;
+  Events& events_;
   std::thread thread_;
 };
 

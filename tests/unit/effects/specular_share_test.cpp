@@ -64,6 +64,24 @@ TEST(SpecularShares, AreBoundedWhereNoPathShowedAny) {
   EXPECT_LT(shares.sharp.at_most, 1e-3);
 }
 
+TEST(SpecularShares, KnowWhatPanesReflect) {
+  // A lamp over a pane over a floor: the first surface of every path is the pane, and some of them go back up.
+  test::SceneMaker maker;
+  const auto grey = maker.material(Spectrum(.5F)), pane = maker.material(Spectrum(1.0F));
+  const auto lamp = maker.material(Spectrum(0.0F), Spectrum(10.0F));
+  maker.polygon(grey, {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}});
+  maker.polygon(pane, {{-9, 1, -9}, {-9, 1, 9}, {9, 1, 9}, {9, 1, -9}});
+  maker.polygon(grey, {{-9, 3, -9}, {9, 3, -9}, {9, 3, 9}, {-9, 3, 9}});
+  maker.polygon(lamp, {{-.2F, 2, -.2F}, {.2F, 2, -.2F}, {.2F, 2, .2F}, {-.2F, 2, .2F}});
+  Scene scene = maker.take();
+  scene.materials[1].transmission = 1, scene.materials[1].roughness = 0, scene.materials[1].specular = 1;
+  const World world(std::move(scene));
+  const SpecularShares shares = measure_specular_shares(world, 1);
+  EXPECT_GT(shares.sharp.share, 0.05);
+  EXPECT_LT(shares.sharp.share, 0.8);
+  EXPECT_EQ(shares.rough.at_most, 0);
+}
+
 TEST(SpecularShares, HaveTheSameBitsForAnyNumberOfThreads) {
   const World world(test::own_scene("effects/glass_sphere"));
   const auto with_threads = [&](int threads) {
