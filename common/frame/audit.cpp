@@ -91,6 +91,11 @@ void add_parts(const PixelSums& x, const AuditResult::Pixel& r, double weight, A
   accuracy.channel_mse[2] += weight * rest1.b * rest2.b;
 }
 
+std::size_t part_of_map(const Settings& settings, int x, int y) {
+  const int column = x * Accuracy::kMapColumns / settings.width, row = y * Accuracy::kMapRows / settings.height;
+  return static_cast<std::size_t>(row * Accuracy::kMapColumns + column);
+}
+
 struct Audited {
   const Settings& settings;
   const Round& round;
@@ -115,6 +120,7 @@ Result<std::vector<Term>> compare_pixels(const Audited& of, std::span<const Audi
       terms.push_back({weight, (value - r1) * (value - r2), (r1 + r2) / 2 - value, v1 * v2});
       accuracy.path_variance += weight * (v1 * r.first.samples + v2 * r.second.samples) / 2;
       add_parts(x, r, weight, accuracy);
+      accuracy.map_mse[part_of_map(of.settings, r.x, r.y)] += weight * terms.back().product;
     }
   }
   if (terms.size() != chosen.size()) return fail(Code::kDataLoss, "audit results are missing");

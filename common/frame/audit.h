@@ -30,6 +30,8 @@ struct Accuracy {
   double direct_mse = 0;                // parts that add up to the MSE
   double indirect_mse = 0;
   double specular_mse = 0;
+  static constexpr int kMapColumns = 8, kMapRows = 6;
+  std::array<double, kMapColumns * kMapRows> map_mse{};  // by part of the image, row by row; add up to the MSE, single ones may be negative
   // What the decision whether to render on goes by:
   double mse = 0;                       // may be negative within its noise, (cd/m^2)^2
   double mse_error = 0;                 // its standard error

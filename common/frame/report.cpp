@@ -37,6 +37,10 @@ json accuracy_json(const std::optional<Accuracy>& accuracy, const json& facts) {
   out["mse_parts"] = {{"direct", accuracy->direct_mse}, {"indirect", accuracy->indirect_mse},
                       {"specular", accuracy->specular_mse}};
   out["channel_mse"] = accuracy->channel_mse;
+  if (accuracy->mse > 0) {
+    out["map"] = {{"columns", Accuracy::kMapColumns}, {"rows", Accuracy::kMapRows}, {"share", json::array()}};
+    for (const double mse : accuracy->map_mse) out["map"]["share"].push_back(mse / accuracy->mse);
+  }
   return out;
 }
 

@@ -137,6 +137,26 @@ TEST(Audit, PartsAndChannelsAddUpToTheMse) {
   EXPECT_NEAR(*accuracy.relative_rmse->value, *accuracy.rmse->value / accuracy.mean, 1e-12);
 }
 
+TEST(Audit, ItsMapSaysWhereTheErrorIs) {
+  // Only the bottom right twelfth is off, by 1 everywhere.
+  const Settings settings = audited(1);
+  Synthetic s = make(settings);
+  for (std::size_t i = 0; i < s.raster.pixels.size(); ++i) {
+    const std::size_t x = i % 40, y = i / 40;
+    s.raster.pixels[i] = grey(x >= 30 && y >= 20 ? 3 : 2, 1);
+  }
+  for (AuditResult::Pixel& pixel : s.audits[0].pixels) pixel.first = pixel.second = grey(2, 1);
+  const Accuracy accuracy = *audit(settings, first_round(settings), s.raster, s.audits);
+  double all = 0, there = 0;
+  for (std::size_t k = 0; k < accuracy.map_mse.size(); ++k) {
+    all += accuracy.map_mse[k];
+    if (k % Accuracy::kMapColumns >= 6 && k / Accuracy::kMapColumns >= 4) there += accuracy.map_mse[k];
+  }
+  EXPECT_NEAR(all, accuracy.mse, 1e-12);
+  EXPECT_NEAR(there, accuracy.mse, 1e-12);
+  EXPECT_GT(accuracy.mse, 0.05);
+}
+
 TEST(Audit, APerfectImageMeasuresBelowWhatItCanResolve) {
   const Settings settings = audited(6);
   Synthetic s = make(settings);
