@@ -29,6 +29,8 @@ std::string shown(const json& value) {
   return value.is_null() ? "–" : escaped(value.dump());
 }
 
+std::string percent(const json& share) { return share.is_number() ? format("%.3g %%", 100 * share.get<double>()) : "–"; }
+
 double number(const json& object, const char* key) {
   return object.is_object() && object.contains(key) && object[key].is_number() ? object[key].get<double>() : 0;
 }
@@ -78,8 +80,9 @@ std::string rounds_section(const json& report) {
   for (const json& round : rounds) {
     if (!round.is_object()) continue;
     const json ci = round.value("relative_rmse_ci95", round.value("ci95", json()));
-    rows.push_back({std::to_string(rows.size() + 1), shown(round.value("kind", json())), shown(round.value("relative_rmse", json())), shown(ci),
-                    shown(round.value("cpu_s", json()))});
+    const bool is_interval = ci.is_array() && ci.size() == 2 && ci[0].is_number() && ci[1].is_number();
+    rows.push_back({std::to_string(rows.size() + 1), shown(round.value("kind", json())), percent(round.value("relative_rmse", json())),
+                    is_interval ? percent(ci[0]) + " to " + percent(ci[1]) : "–", shown(round.value("cpu_s", json()))});
   }
   return "<h2>Rounds</h2>\n" + html_table({"round", "what", "relative error", "95 %", "CPU s"}, rows);
 }

@@ -30,6 +30,7 @@ TEST(ReportPage, SaysWhatTheReportSays) {
   EXPECT_THAT(page, HasSubstr("radiosity"));
   EXPECT_THAT(page, HasSubstr("12.00")) << "the sum of CPU seconds";
   EXPECT_THAT(page, HasSubstr("75.0 %"));
+  EXPECT_THAT(page, HasSubstr("<td>5 %</td>")) << "of the first round";
   EXPECT_THAT(page, HasSubstr("about 40 CPU s"));
   EXPECT_THAT(page, HasSubstr("framed &lt;the&gt; bulk"));
   EXPECT_THAT(page, Not(HasSubstr("http"))) << "needs nothing else";
