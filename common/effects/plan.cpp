@@ -170,8 +170,8 @@ void force_off(EffectDecision& row, const Measurements& m) {
   }
 }
 
-/// Whether an effect can be forced on or off: of what paths carry nothing is folded.
-bool has_switch(std::string_view id, Transport transport) {
+/// Whether an effect can be forced off: of what paths carry nothing is folded.
+bool can_be_off(std::string_view id, Transport transport) {
   const Effect effect = effect_of(id);
   return effect != Effect::kCount && !(transport == Transport::kPathTrace && (bit_of(effect) & kFoldable) != 0);
 }
@@ -188,11 +188,10 @@ Status force(EffectsPlan& plan, const Measurements& m, Transport transport, std:
     for (const EffectDecision& e : plan.effects) known += (known.empty() ? "" : ", ") + e.id;
     return fail(Code::kInvalidArgument, "--effects: no effect '" + std::string(id) + "'; there are " + known);
   }
-  const bool is_switch = has_switch(id, transport);
-  if (on && !row->active && !is_switch) {
+  if (on && !row->active && effect_of(id) == Effect::kCount) {
     return fail(Code::kInvalidArgument, "--effects: radfarm cannot simulate '" + std::string(id) + "': " + row->note);
   }
-  if (!on && row->active && !is_switch) {
+  if (!on && row->active && !can_be_off(id, transport)) {
     return fail(Code::kInvalidArgument, "--effects: '" + std::string(id) + "' cannot be switched off: " + row->note);
   }
   if (!on) {

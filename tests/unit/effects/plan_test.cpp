@@ -174,6 +174,7 @@ TEST(PlanEffects, ThePathTracerCarriesWhatTheGatherLeavesOut) {
     EXPECT_FALSE(plan_of(m).is_active(id)) << id;
   }
   EXPECT_FALSE(plan_effects(m, Transport::kPathTrace, "-caustics").has_value()) << "paths carry it";
+  EXPECT_TRUE(plan_of(lit_room(), "+caustics", Transport::kPathTrace).is_active("caustics")) << "nothing is asked for";
 }
 
 TEST(PlanEffects, WhatIsFoldedCanBeCarriedAndIsNoOtherScene) {
