@@ -1,20 +1,11 @@
 #include "cli/closing_table.h"
 
-#include <array>
-#include <cstdio>
+#include "cli/format.h"
 
 namespace radfarm::cli {
 namespace {
 
 using nlohmann::json;
-
-/// Some letters and digits around a format: snprintf without a buffer to size.
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 512> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 std::string short_text(const json& value) {
   if (value.is_string()) return value.get<std::string>();

@@ -1,22 +1,14 @@
 #include "cli/ladder_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "cli/format.h"
 #include "cli/html.h"
 #include "cli/log_plot.h"
 
 namespace radfarm::cli {
 namespace {
-
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 std::string percent(double share) { return format("%.3g %%", 100 * share); }
 

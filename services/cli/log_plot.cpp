@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "cli/format.h"
 #include "cli/html.h"
 
 namespace radfarm::cli {
@@ -14,13 +14,6 @@ namespace {
 constexpr double kWidth = 760, kHeight = 430, kLeft = 72, kRight = 190, kTop = 16, kBottom = 52;
 // Okabe and Ito's colours: told apart by the colour blind.
 constexpr std::array kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8c6d31"};
-
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 bool is_shown(const PlotPoint& p) { return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y); }
 bool has_interval(const PlotPoint& p) { return p.low > 0 && p.high > p.low; }

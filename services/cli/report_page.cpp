@@ -1,25 +1,17 @@
 #include "cli/report_page.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
 #include "cli/closing_table.h"
+#include "cli/format.h"
 #include "cli/html.h"
 
 namespace radfarm::cli {
 namespace {
 
 using nlohmann::json;
-
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 /// What a reader sees of a value: four digits, a dash for nothing.
 std::string shown(const json& value) {
