@@ -7,7 +7,6 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "effects/texture_range.h"
 #include "paths/photon_path.h"
 
 namespace radfarm {
@@ -20,8 +19,18 @@ constexpr std::uint64_t kShareKey = 0x73686172;  // "shar"
 constexpr float kSharpRoughness = 0.4F;
 enum Sender : std::size_t { kNotSpecular, kSharp, kRough, kSenders };
 
+/// The mean of what scales a roughness: green, linear; 1 without a texture. O(texels).
 float mean_green(const Scene& scene, const TextureUse& use) {
-  return use.is_used() ? range_of(scene.textures[use.texture]).mean.g : 1;
+  if (!use.is_used()) return 1;
+  const Texture& texture = scene.textures[use.texture];
+  std::uint64_t sum = 0;
+  for (const auto& texel : texture.texels) sum += texel[1];
+  return static_cast<float>(static_cast<double>(sum) / (255.0 * static_cast<double>(texture.texels.size())));
+}
+
+/// A texture only lowers the factor: most need no look at their texels.
+bool is_below(const Scene& scene, float factor, const TextureUse& texture) {
+  return factor < kSharpRoughness || factor * mean_green(scene, texture) < kSharpRoughness;
 }
 
 /// What paths brought, by sender: sums of one path's light and of its square, luminance.
@@ -74,9 +83,9 @@ SpecularShare share_of(const Brought& brought, Sender sender) {
 }  // namespace
 
 bool is_sharp(const Scene& scene, const Material& m) {
-  if (m.clearcoat > 0 && m.clearcoat_roughness * mean_green(scene, m.clearcoat_roughness_texture) < kSharpRoughness) return true;
+  if (m.clearcoat > 0 && is_below(scene, m.clearcoat_roughness, m.clearcoat_roughness_texture)) return true;
   const bool has_lobe = m.metallic > 0 || m.specular > 0 || m.transmission > 0;
-  return has_lobe && m.roughness * mean_green(scene, m.metallic_roughness_texture) < kSharpRoughness;
+  return has_lobe && is_below(scene, m.roughness, m.metallic_roughness_texture);
 }
 
 SpecularShares measure_specular_shares(const World& world, std::uint64_t seed) {

@@ -8,11 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "base/parallel.h"
 #include "effects/specialise.h"
 #include "estimate/task_result.h"
-#include "pipeline/pipeline.h"
-#include "support/small_scenes.h"
+#include "statistical/rendered_request.h"
 
 namespace radfarm {
 namespace {
@@ -90,19 +88,11 @@ Pixels render(const Demonstration& of, const std::string& effects, std::uint64_t
   request.env = of.env;
   if (of.has_ies) request.ies = {{"downlight", "downlight.ies"}};
   if (of.lens > 0) request.lens_diameter = of.lens, request.focus_distance = of.focus;
-  const Result<PreparedFiles> files = prepare(test::own_scene_path(std::string("effects/") + of.scene), request);
-  EXPECT_TRUE(files) << files.error().message;
-  const Result<Prepared> prepared = Prepared::open(files->scene, files->solution, files->view);
-  EXPECT_TRUE(prepared) << prepared.error().message;
-  const std::vector<Task> tasks = *cut_tasks(files->view);
-  std::vector<std::vector<std::byte>> results(tasks.size());
-  parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) results[i] = *run_task(*prepared, tasks[i]);
-  });
+  const test::RanTasks ran = test::run_tasks(std::string("effects/") + of.scene, request);
   Pixels pixels;
   pixels.width = of.width;
   pixels.sums.resize(static_cast<std::size_t>(of.width * of.height()));
-  for (const std::vector<std::byte>& bytes : results) {
+  for (const std::vector<std::byte>& bytes : ran.results) {
     const TileResult tile = *decode_tile_result(bytes);
     auto next = tile.pixels.begin();
     for (int y = tile.rect.y0; y < tile.rect.y1; ++y) {
@@ -110,7 +100,7 @@ Pixels render(const Demonstration& of, const std::string& effects, std::uint64_t
         pixels.sums[static_cast<std::size_t>(y * of.width + x)] = *next++;
     }
   }
-  pixels.effects = (*finish(files->view, results, {})->report)["effects"];
+  pixels.effects = (*finish(ran.files.view, ran.results, {})->report)["effects"];
   return pixels;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,10 +14,16 @@
 
 namespace radfarm::test {
 
-/// A scene of tests/scenes from end to end, without a farm.
-inline Finished rendered(const std::string& scene, const RenderRequest& request) {
-  const Result<PreparedFiles> files = prepare(own_scene_path(scene), request);
-  EXPECT_TRUE(files) << files.error().message;
+/// A request's view, and what its tasks returned.
+struct RanTasks {
+  PreparedFiles files;
+  std::vector<std::vector<std::byte>> results;
+};
+
+/// A scene of tests/scenes up to its results, without a farm.
+inline RanTasks run_tasks(const std::string& scene, const RenderRequest& request) {
+  Result<PreparedFiles> files = prepare(own_scene_path(scene), request);
+  if (!files) throw std::runtime_error(files.error().message);  // the test fails, and says why
   const Result<Prepared> prepared = Prepared::open(files->scene, files->solution, files->view);
   EXPECT_TRUE(prepared) << prepared.error().message;
   const std::vector<Task> tasks = *cut_tasks(files->view);
@@ -24,7 +31,13 @@ inline Finished rendered(const std::string& scene, const RenderRequest& request)
   parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) results[i] = *run_task(*prepared, tasks[i]);
   });
-  Result<Finished> finished = finish(files->view, results, {});
+  return {std::move(*files), std::move(results)};
+}
+
+/// The same to its image and report.
+inline Finished rendered(const std::string& scene, const RenderRequest& request) {
+  const RanTasks ran = run_tasks(scene, request);
+  Result<Finished> finished = finish(ran.files.view, ran.results, {});
   EXPECT_TRUE(finished) << finished.error().message;
   return std::move(*finished);
 }

@@ -28,6 +28,15 @@ TEST(IsSharp, AsksForALobeAndItsWidth) {
   EXPECT_TRUE(is_sharp(scene, glass));
 }
 
+TEST(IsSharp, CountsTexturesWithTheirMean) {
+  Scene scene;
+  scene.textures.push_back({2, 1, false, Texture::Wrap::kRepeat, Texture::Wrap::kRepeat, {{0, 0, 0, 255}, {0, 102, 0, 255}}});
+  Material metal = with(1, 0, 1);
+  EXPECT_FALSE(is_sharp(scene, metal));
+  metal.metallic_roughness_texture.texture = 0;
+  EXPECT_TRUE(is_sharp(scene, metal)) << "a mean of .2";
+}
+
 TEST(SpecularShares, OfDiffuseScenesAreExactlyNothing) {
   const World world(test::own_scene("cornell"));
   const SpecularShares shares = measure_specular_shares(world, 1);
